@@ -35,7 +35,7 @@ struct TrimLoop
 /// A trimmed surface. No loop: the natural boundary of the domain.
 struct Face
 {
-  SurfaceView Surface;
+  SurfaceView Geometry;
   std::int64_t FirstLoop = 0;
   std::int64_t LoopCount = 0;
   std::int64_t FaceId = -1;
