@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Multiversion.h
+/// @brief One binary, several instruction sets.
+#pragma once
+
+/// Before a function with a hot, vectorisable loop: the compiler makes a clone of it for AVX2 and one
+/// for AVX-512 beside the baseline, and the loader picks the best that the machine has. No clone fuses
+/// multiply and add (-ffp-contract=off), so all give the same bits. Only functions defined in a .cxx
+/// file can have it, and what they call is cloned along only where it is inlined. Under a sanitizer
+/// and on other compilers there is the baseline alone.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(NURBS_SANITIZE)
+#define NURBS_MULTIVERSION                                                                         \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define NURBS_MULTIVERSION
+#endif
