@@ -24,7 +24,7 @@ vtk='vtk[A-Z]|vtkm/|vtk_'
 opencascade='[A-Za-z0-9_]+\.(hxx|lxx|gxx)[>"]'
 cgal='CGAL/'
 opengl='GL/|GLES[0-9]*/|EGL/|epoxy/|glad/|vtk_glew|vtkOpenGL|vtkEGL'
-qt='Q[A-Z][A-Za-z]*[>"/]|pq[A-Z]'
+qt='Q(t[A-Z][A-Za-z0-9]*/|[A-Z][A-Za-z0-9]*[>"/])|pq[A-Z]'
 
 offence 'only files named vtk* (and Test*, main.cxx of the command line) may know VTK' < <(
   list | grep -vE '/(vtk|pq|Test)[^/]*$' | grep -vE '^(Plugin/CommandLine|Testing/(Benchmarks|Peers|Rendering|Plugin))/' |
