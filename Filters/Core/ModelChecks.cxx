@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ModelChecks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace nurbs
+{
+namespace
+{
+
+/// Gaps and excesses under this part of the domain are rounding.
+constexpr double NegligiblePart = 1e-6;
+/// A loop may leave the domain by this part of it (the tessellator clamps), no further.
+constexpr double ExcessLimit = 0.02;
+/// Two lifted points closer than this part of the face's size are one.
+constexpr double SamePointPart = 1e-3;
+
+/// A face's domain, for measures relative to its size.
+struct DomainBox
+{
+  Interval U, V;
+  explicit DomainBox(const SurfaceView& surface)
+    : U(surface.Domain(0))
+    , V(surface.Domain(1))
+  {}
+  Vec2 Relative(const Vec2& p) const
+  {
+    return Vec2((p[0] - this->U.Min) / this->U.Length(), (p[1] - this->V.Min) / this->V.Length());
+  }
+  Vec2 Clamp(const Vec2& p) const { return Vec2(this->U.Clamp(p[0]), this->V.Clamp(p[1])); }
+  /// How far p is outside, as a part of the domain's size in the worse direction.
+  double Excess(const Vec2& p) const
+  {
+    const Vec2 r = this->Relative(p);
+    return std::max(std::max(-r[0], r[0] - 1.0), std::max(std::max(-r[1], r[1] - 1.0), 0.0));
+  }
+};
+
+Box3 NetBox(const SurfaceView& surface)
+{
+  Box3 box;
+  for (std::int64_t k = 0; k < surface.Size(); ++k)
+  {
+    box.extend(surface.Point(k));
+  }
+  return box;
+}
+
+Vec2 CurveEnd(const TrimCurve& curve, int end)
+{
+  const Interval domain = curve.Geometry.Domain();
+  return Evaluate(curve.Geometry, (end == 1) != curve.Reversed ? domain.Max : domain.Min);
+}
+
+/// True if the straight line from a to b in the domain is lifted to (almost) one point: a pole.
+bool IsBridgedByPole(const Face& face, const DomainBox& domain, const Vec2& a, const Vec2& b)
+{
+  const double limit = SamePointPart * NetBox(face.Geometry).diagonal().norm();
+  const Vec2 ca = domain.Clamp(a), cb = domain.Clamp(b);
+  const Vec3 start = Evaluate(face.Geometry, ca[0], ca[1]);
+  for (int i = 1; i <= 8; ++i)
+  {
+    const Vec2 p = ca + (cb - ca) * (i / 8.0);
+    if ((Evaluate(face.Geometry, p[0], p[1]) - start).norm() > limit)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Largest excess of the curve over the domain: 0 if its control points are inside (convex hull),
+/// else by samples.
+double CurveExcess(const CurveView<2>& curve, const DomainBox& domain)
+{
+  double worst = 0.0;
+  for (int i = 0; i < curve.Count; ++i)
+  {
+    worst = std::max(worst, domain.Excess(curve.Point(i)));
+  }
+  if (worst <= NegligiblePart)
+  {
+    return 0.0;
+  }
+  worst = 0.0;
+  const Interval range = curve.Domain();
+  const int samples = 8 * std::max(1, curve.Count - curve.Degree);
+  for (int i = 0; i <= samples; ++i)
+  {
+    const double t = range.Clamp(range.Min + range.Length() * i / samples);
+    worst = std::max(worst, domain.Excess(Evaluate(curve, t)));
+  }
+  return worst;
+}
+
+/// Twice the area enclosed by the loop, in parts of the domain, by a polygon of samples; and the
+/// polygon's length.
+void MeasureLoop(
+  const Model& model, const TrimLoop& loop, const DomainBox& domain, double& area, double& length)
+{
+  constexpr int SamplesPerSpan = 4;
+  std::vector<Vec2> polygon;
+  for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+  {
+    const TrimCurve& curve = model.TrimCurves[c];
+    const Interval range = curve.Geometry.Domain();
+    const int spans = std::max(1, curve.Geometry.Count - curve.Geometry.Degree);
+    const int samples = curve.Geometry.Degree == 1 && spans == 1 ? 1 : SamplesPerSpan * spans;
+    for (int i = 0; i < samples; ++i)
+    {
+      const double s = static_cast<double>(i) / samples;
+      const double t = range.Min + range.Length() * (curve.Reversed ? 1.0 - s : s);
+      polygon.push_back(domain.Relative(Evaluate(curve.Geometry, range.Clamp(t))));
+    }
+  }
+  area = length = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vec2 a = polygon[i] - polygon[0];
+    const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    area += a[0] * b[1] - a[1] * b[0];
+    length += (b - a).norm();
+  }
+}
+
+std::string Part(double value)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << value << " of the domain's size";
+  return text.str();
+}
+
+/// The reason why the loop is open, or "".
+std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop,
+  const DomainBox& domain, double gapLimit, const std::string& name,
+  std::vector<std::string>& warnings)
+{
+  double largest = 0.0;
+  for (std::int64_t c = 0; c < loop.CurveCount; ++c)
+  {
+    const std::int64_t next = (c + 1) % loop.CurveCount;
+    const Vec2 a = CurveEnd(model.TrimCurves[loop.FirstCurve + c], 1);
+    const Vec2 b = CurveEnd(model.TrimCurves[loop.FirstCurve + next], 0);
+    const double gap = (domain.Relative(b) - domain.Relative(a)).norm();
+    if (!(gap <= gapLimit) && !IsBridgedByPole(face, domain, a, b))
+    {
+      return name + "it is open: between its trim curves " + std::to_string(c) + " and " +
+        std::to_string(next) + " is a gap of " + Part(gap);
+    }
+    largest = std::max(largest, gap);
+  }
+  if (largest > NegligiblePart)
+  {
+    warnings.push_back(name + "it has a gap of " + Part(largest));
+  }
+  return std::string();
+}
+
+} // namespace
+
+std::string CheckLoops(
+  const Model& model, const Face& face, double gapLimit, std::vector<std::string>& warnings)
+{
+  const DomainBox domain(face.Geometry);
+  for (std::int64_t l = 0; l < face.LoopCount; ++l)
+  {
+    const TrimLoop& loop = model.Loops[face.FirstLoop + l];
+    const std::string name = "loop " + std::to_string(l) + ": ";
+    double excess = 0.0;
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      excess = std::max(excess, CurveExcess(model.TrimCurves[c].Geometry, domain));
+    }
+    if (!(excess <= ExcessLimit))
+    {
+      return name + "it leaves the surface's domain by " + Part(excess);
+    }
+    if (excess > NegligiblePart)
+    {
+      warnings.push_back(name + "it leaves the surface's domain by " + Part(excess));
+    }
+    const std::string open = CheckGaps(model, face, loop, domain, gapLimit, name, warnings);
+    if (!open.empty())
+    {
+      return open;
+    }
+    double area, length;
+    MeasureLoop(model, loop, domain, area, length);
+    if (std::abs(area) <= 1e-12 * std::max(1e-12, length * length))
+    {
+      warnings.push_back(name + "it encloses no area");
+    }
+  }
+  return std::string();
+}
+
+namespace
+{
+
+/// The first use of an edge by a face that is sound.
+struct EdgeUse
+{
+  std::int64_t Face = -1;
+  std::int64_t Curve = -1;
+};
+
+std::vector<EdgeUse> FirstUses(const Model& model)
+{
+  std::vector<EdgeUse> uses(model.Edges.size());
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    const Face& face = model.Faces[f];
+    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const TrimLoop& loop = model.Loops[l];
+      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+      {
+        const std::int64_t edge = model.TrimCurves[c].Edge;
+        if (edge >= 0 && uses[edge].Face < 0)
+        {
+          uses[edge] = { static_cast<std::int64_t>(f), c };
+        }
+      }
+    }
+  }
+  return uses;
+}
+
+/// Start, middle and end of a trim curve on its surface.
+std::array<Vec3, 3> LiftedPoints(const SurfaceView& surface, const CurveView<2>& curve)
+{
+  const DomainBox domain(surface);
+  const Interval range = curve.Domain();
+  std::array<Vec3, 3> points;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Vec2 uv =
+      domain.Clamp(Evaluate(curve, range.Clamp(range.Min + 0.5 * i * range.Length())));
+    points[i] = Evaluate(surface, uv[0], uv[1]);
+  }
+  return points;
+}
+
+std::array<Vec3, 3> EdgePoints(const CurveView<3>& curve)
+{
+  if (curve.Degree == 0)
+  {
+    const Vec3 point = curve.Point(0);
+    return { { point, point, point } };
+  }
+  const Interval range = curve.Domain();
+  return { { Evaluate(curve, range.Min), Evaluate(curve, range.Min + 0.5 * range.Length()),
+    Evaluate(curve, range.Max) } };
+}
+
+double ModelSize(const Model& model)
+{
+  Box3 box;
+  for (const Face& face : model.Faces)
+  {
+    const Box3 net = NetBox(face.Geometry);
+    if (!net.isEmpty())
+    {
+      box.extend(net);
+    }
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Puts a moved pole to `point`, forgets any other curve.
+void ReleaseEdge(AssembledModel& result, Edge& edge, const Vec3& point)
+{
+  if (edge.Geometry.Count == 1)
+  {
+    result.MovedPoles.push_back(Vec4(point[0], point[1], point[2], 1.0));
+    edge.Geometry.Points = result.MovedPoles.back().data();
+  }
+  else
+  {
+    edge.Geometry = CurveView<3>();
+  }
+  edge.Tolerance = 0.0;
+}
+
+/// True if the edge's curve is known and farther than `limit` from the lifted trim curve.
+bool CurveMoved(const Edge& edge, const std::array<Vec3, 3>& lifted, double limit)
+{
+  if (edge.Geometry.Count == 0)
+  {
+    return false;
+  }
+  const std::array<Vec3, 3> own = EdgePoints(edge.Geometry);
+  return !((own[0] - lifted[0]).norm() <= limit && (own[1] - lifted[1]).norm() <= limit &&
+    (own[2] - lifted[2]).norm() <= limit);
+}
+
+} // namespace
+
+void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
+{
+  Model& model = result.Model;
+  const std::vector<EdgeUse> uses = FirstUses(model);
+  const double negligible = 1e-6 * ModelSize(model);
+  std::vector<std::array<Vec3, 3>> lifted(model.Edges.size());
+  std::vector<char> moved(model.Edges.size(), 0);
+  parallel(0, model.Edges.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e)
+    {
+      if (uses[e].Face >= 0)
+      {
+        const Edge& edge = model.Edges[e];
+        lifted[e] = LiftedPoints(
+          model.Faces[uses[e].Face].Geometry, model.TrimCurves[uses[e].Curve].Geometry);
+        moved[e] = CurveMoved(edge, lifted[e], 4.0 * edge.Tolerance + negligible);
+      }
+    }
+  });
+  std::int64_t count = 0;
+  for (std::size_t e = 0; e < moved.size(); ++e)
+  {
+    Edge& edge = model.Edges[e];
+    const bool unknown = edge.Geometry.Count == 0 && uses[e].Face >= 0;
+    const double limit = 4.0 * edge.Tolerance + negligible;
+    for (int i = 0; i < 2 && (moved[e] || unknown); ++i)
+    {
+      Vec3* vertex = edge.Vertex[i] >= 0 ? &model.Vertices[edge.Vertex[i]] : nullptr;
+      if (vertex && !((*vertex - lifted[e][2 * i]).norm() <= limit))
+      {
+        *vertex = lifted[e][2 * i];
+      }
+    }
+    if (moved[e])
+    {
+      ++count;
+      ReleaseEdge(result, edge, lifted[e][1]);
+    }
+  }
+  if (count > 0)
+  {
+    result.Problems.push_back({ ModelProblem::Level::Warning, -1,
+      std::to_string(count) +
+        " edges do not fit their faces, as after moving points; their 3D curves are ignored" });
+  }
+}
+
+} // namespace nurbs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file ModelChecks.h
+/// @brief Geometric checks of a model whose arrays are sound: loops that close, edges that fit.
+#pragma once
+
+#include "ModelArrays.h"
+
+namespace nurbs
+{
+
+/// Checks the loops of a face of `model`.
+///
+/// Returns the reason why the face can't be trimmed, or "": a loop is open (its gap is over
+/// `gapLimit` of the domain's size and not bridged by a point of the surface, as at a pole) or
+/// leaves the domain by more than a fiftieth of it. `warnings` receives smaller gaps and excesses
+/// (over 1e-6 of the domain) and loops without area.
+std::string CheckLoops(
+  const Model& model, const Face& face, double gapLimit, std::vector<std::string>& warnings);
+
+/// Compares every edge with the first trim curve that names it, at both ends and in the middle. An
+/// edge that is farther away than four times its tolerance (and 1e-6 of the model's size) was left
+/// behind when points were moved: AssembleOptions::CheckEdges says what happens then.
+void ReleaseMovedEdges(AssembledModel& model, const ParallelFor& parallel);
+
+} // namespace nurbs

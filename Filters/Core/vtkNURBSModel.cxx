@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSModel.h"
+
+#include "ModelBuilder.h"
+#include "vtkNURBSModelNames.h"
+#include "vtkNURBSModelView.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace names = vtkNURBSModelNames;
+
+vtkStandardNewMacro(vtkNURBSModel);
+
+vtkNURBSModel::vtkNURBSModel() = default;
+vtkNURBSModel::~vtkNURBSModel() = default;
+
+void vtkNURBSModel::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+
+bool vtkNURBSModel::Validate(vtkUnstructuredGrid* grid, std::vector<nurbs::ModelProblem>& problems)
+{
+  problems = vtkNURBSModelView(grid).GetProblems();
+  return std::none_of(problems.begin(), problems.end(), [](const nurbs::ModelProblem& problem) {
+    return problem.Severity == nurbs::ModelProblem::Level::Error;
+  });
+}
+
+std::string vtkNURBSModel::Validate(vtkUnstructuredGrid* grid)
+{
+  const vtkNURBSModelView view(grid);
+  std::string text = grid ? "" : "error: there is no grid";
+  for (const nurbs::ModelProblem& problem : view.GetProblems())
+  {
+    text += (text.empty() ? "" : "\n") + view.Describe(problem);
+  }
+  return text;
+}
+
+std::shared_ptr<const vtkNURBSModelView> vtkNURBSModel::View(vtkUnstructuredGrid* grid)
+{
+  return std::make_shared<const vtkNURBSModelView>(grid);
+}
+
+bool vtkNURBSModel::IsModel(vtkUnstructuredGrid* grid)
+{
+  return grid && grid->GetCellData()->HasArray(names::Degree) &&
+    grid->GetCellData()->HasArray(names::NetSize) &&
+    grid->GetCellData()->HasArray(names::KnotStart) && grid->GetFieldData()->HasArray(names::Knots);
+}
+
+bool vtkNURBSModel::IsStructureArray(const char* name)
+{
+  for (const char* structure : { names::Degree, names::NetSize, names::KnotStart, names::LoopStart,
+         names::LoopCount, names::Orientation })
+  {
+    if (name && !strcmp(name, structure))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+namespace
+{
+
+/// Moves `values` into a new array of `data`, converted to the array's type.
+template <typename ArrayType, typename ValueType>
+void MoveArray(vtkFieldData* data, const char* name, int components, std::vector<ValueType>& values)
+{
+  vtkNew<ArrayType> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::transform(values.begin(), values.end(), array->GetPointer(0),
+    [](ValueType value) { return static_cast<typename ArrayType::ValueType>(value); });
+  data->AddArray(array);
+  std::vector<ValueType>().swap(values);
+}
+
+void AddStrings(vtkFieldData* data, const char* name, const std::vector<std::string>& values)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  }
+  data->AddArray(array);
+}
+
+void StoreGeometry(nurbs::ModelBuilder::Storage& d, vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(static_cast<vtkIdType>(d.Points.size() / 3));
+  std::copy(d.Points.begin(), d.Points.end(), coordinates->GetPointer(0));
+  std::vector<double>().swap(d.Points);
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  grid->SetPoints(points);
+
+  vtkNew<vtkTypeInt64Array> offsets, connectivity;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(d.Offsets.size()));
+  std::copy(d.Offsets.begin(), d.Offsets.end(), offsets->GetPointer(0));
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(d.Connectivity.size()));
+  std::copy(d.Connectivity.begin(), d.Connectivity.end(), connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  grid->SetCells(VTK_POLY_VERTEX, cells);
+  std::vector<std::int64_t>().swap(d.Connectivity);
+  d.Offsets.assign(1, 0);
+  if (!d.Weights.empty())
+  {
+    MoveArray<vtkDoubleArray>(grid->GetPointData(), names::RationalWeights, 1, d.Weights);
+  }
+}
+
+void StoreFaces(nurbs::ModelBuilder::Storage& d, vtkFieldData* cells)
+{
+  MoveArray<vtkIntArray>(cells, names::Degree, 2, d.Degree);
+  MoveArray<vtkIntArray>(cells, names::NetSize, 2, d.NetSize);
+  MoveArray<vtkTypeInt64Array>(cells, names::KnotStart, 2, d.KnotStart);
+  MoveArray<vtkTypeInt64Array>(cells, names::LoopStart, 1, d.LoopStart);
+  MoveArray<vtkTypeInt64Array>(cells, names::LoopCount, 1, d.LoopCount);
+  MoveArray<vtkTypeInt64Array>(cells, names::FaceId, 1, d.FaceId);
+  MoveArray<vtkSignedCharArray>(cells, names::Orientation, 1, d.Orientation);
+  MoveArray<vtkUnsignedCharArray>(cells, names::Color, 3, d.Color);
+  AddStrings(cells, names::Name, d.Name);
+  d.Name.clear();
+}
+
+void StoreTrims(nurbs::ModelBuilder::Storage& d, vtkFieldData* field)
+{
+  MoveArray<vtkTypeInt64Array>(field, names::LoopCurveStart, 1, d.LoopCurveStart);
+  MoveArray<vtkTypeInt64Array>(field, names::LoopCurveCount, 1, d.LoopCurveCount);
+  MoveArray<vtkIntArray>(field, names::TrimCurveDegree, 1, d.TrimCurveDegree);
+  MoveArray<vtkTypeInt64Array>(field, names::TrimCurveKnotStart, 1, d.TrimCurveKnotStart);
+  MoveArray<vtkTypeInt64Array>(field, names::TrimCurvePointStart, 1, d.TrimCurvePointStart);
+  MoveArray<vtkTypeInt64Array>(field, names::TrimCurvePointCount, 1, d.TrimCurvePointCount);
+  MoveArray<vtkTypeInt64Array>(field, names::TrimCurveEdgeId, 1, d.TrimCurveEdgeId);
+  MoveArray<vtkSignedCharArray>(field, names::TrimCurveReversed, 1, d.TrimCurveReversed);
+  MoveArray<vtkDoubleArray>(field, names::TrimPoints, 3, d.TrimPoints);
+  MoveArray<vtkDoubleArray>(field, names::TrimKnots, 1, d.TrimKnots);
+}
+
+void StoreEdges(nurbs::ModelBuilder::Storage& d, vtkFieldData* field)
+{
+  MoveArray<vtkIntArray>(field, names::EdgeDegree, 1, d.EdgeDegree);
+  MoveArray<vtkTypeInt64Array>(field, names::EdgeKnotStart, 1, d.EdgeKnotStart);
+  MoveArray<vtkTypeInt64Array>(field, names::EdgePointStart, 1, d.EdgePointStart);
+  MoveArray<vtkTypeInt64Array>(field, names::EdgePointCount, 1, d.EdgePointCount);
+  MoveArray<vtkTypeInt64Array>(field, names::EdgeVertices, 2, d.EdgeVertices);
+  MoveArray<vtkDoubleArray>(field, names::EdgeTolerance, 1, d.EdgeTolerance);
+  MoveArray<vtkDoubleArray>(field, names::EdgePoints, 4, d.EdgePoints);
+  MoveArray<vtkDoubleArray>(field, names::EdgeKnots, 1, d.EdgeKnots);
+  MoveArray<vtkDoubleArray>(field, names::VertexPoints, 3, d.VertexPoints);
+}
+
+} // namespace
+
+void vtkNURBSModel::Store(nurbs::ModelBuilder& builder, vtkUnstructuredGrid* grid)
+{
+  grid->Initialize();
+  nurbs::ModelBuilder::Storage& d = builder.Data;
+  StoreGeometry(d, grid);
+  StoreFaces(d, grid->GetCellData());
+  MoveArray<vtkDoubleArray>(grid->GetFieldData(), names::Knots, 1, d.Knots);
+  StoreTrims(d, grid->GetFieldData());
+  StoreEdges(d, grid->GetFieldData());
+  AddStrings(grid->GetFieldData(), names::LengthUnit, { builder.LengthUnit });
+}
+
+void vtkNURBSModel::CopyFaceAttributes(
+  vtkUnstructuredGrid* grid, vtkIdTypeArray* faces, vtkDataSetAttributes* target)
+{
+  vtkCellData* source = grid->GetCellData();
+  const vtkIdType count = faces->GetNumberOfTuples();
+  for (int i = 0; i < source->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* from = source->GetAbstractArray(i);
+    if (IsStructureArray(from->GetName()) || !from->GetName())
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkAbstractArray> to;
+    to.TakeReference(from->NewInstance());
+    to->SetName(from->GetName());
+    to->SetNumberOfComponents(from->GetNumberOfComponents());
+    to->CopyComponentNames(from);
+    to->SetNumberOfTuples(count);
+    for (vtkIdType k = 0; k < count; ++k)
+    {
+      to->SetTuple(k, faces->GetValue(k), from);
+    }
+    target->AddArray(to);
+  }
+  if (!source->HasArray(names::FaceId))
+  {
+    vtkNew<vtkTypeInt64Array> ids;
+    ids->SetName(names::FaceId);
+    ids->SetNumberOfValues(count);
+    std::copy_n(faces->GetPointer(0), count, ids->GetPointer(0));
+    target->AddArray(ids);
+  }
+}
+
+vtkIdType vtkNURBSModel::GetFaceId(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  vtkDataArray* ids = grid->GetCellData()->GetArray(names::FaceId);
+  return ids && cell < ids->GetNumberOfTuples() ? static_cast<vtkIdType>(ids->GetTuple1(cell))
+                                                : cell;
+}
+
+const char* vtkNURBSModel::FaceIdName()
+{
+  return names::FaceId;
+}
+
+const char* vtkNURBSModel::EdgeIdName()
+{
+  return names::EdgeId;
+}
+
+const char* vtkNURBSModel::ColorName()
+{
+  return names::Color;
+}
+
+const char* vtkNURBSModel::NameName()
+{
+  return names::Name;
+}
+
+std::string vtkNURBSModel::GetLengthUnit(vtkUnstructuredGrid* grid)
+{
+  auto* unit =
+    vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(names::LengthUnit));
+  return unit && unit->GetNumberOfValues() > 0 ? unit->GetValue(0) : std::string();
+}
+
+void vtkNURBSModel::SetUnconvertedFaces(
+  vtkUnstructuredGrid* grid, const std::vector<std::string>& reasons)
+{
+  AddStrings(grid->GetFieldData(), names::UnconvertedFaces, reasons);
+}
+
+std::vector<std::string> vtkNURBSModel::GetUnconvertedFaces(vtkUnstructuredGrid* grid)
+{
+  auto* stored =
+    vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(names::UnconvertedFaces));
+  std::vector<std::string> reasons;
+  for (vtkIdType i = 0; stored && i < stored->GetNumberOfValues(); ++i)
+  {
+    reasons.push_back(stored->GetValue(i));
+  }
+  return reasons;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkNURBSModelView
+ * @brief A vtkUnstructuredGrid as a nurbs::Model, for filters that call the kernels.
+ *
+ * Made by vtkNURBSModel::View. Holds the grid's arrays by reference, and converted copies of those
+ * that are not double or 64-bit integers, so it may outlive the grid. Immutable and safe to read
+ * from many threads. Not wrapped for Python.
+ */
+#ifndef vtkNURBSModelView_h
+#define vtkNURBSModelView_h
+
+#include "ModelArrays.h"
+#include "vtkNURBSFiltersCoreModule.h" // For export macro
+#include "vtkType.h"                   // For vtkIdType
+
+#include <memory> // For std::unique_ptr
+
+class vtkUnstructuredGrid;
+
+class VTKNURBSFILTERSCORE_EXPORT vtkNURBSModelView
+{
+public:
+  explicit vtkNURBSModelView(vtkUnstructuredGrid* grid);
+  ~vtkNURBSModelView();
+  vtkNURBSModelView(const vtkNURBSModelView&) = delete;
+  vtkNURBSModelView& operator=(const vtkNURBSModelView&) = delete;
+
+  /// The model: face i is cell i. A face with an error has an empty net and no loop.
+  const nurbs::Model& GetModel() const;
+
+  /// Why the face of this cell can't be used; "" if it can. Does not name the cell.
+  const std::string& GetFaceError(vtkIdType cell) const;
+
+  /// All errors and warnings.
+  const std::vector<nurbs::ModelProblem>& GetProblems() const;
+
+  /// A problem as one line: "error: cell 3 (FaceId 17): knots in u decrease ...".
+  std::string Describe(const nurbs::ModelProblem& problem) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Content;
+};
+
+#endif
