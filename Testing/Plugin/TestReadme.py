@@ -1,0 +1,22 @@
+"""Runs the Python pipeline that README.md shows, as it stands there."""
+
+import os
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+readme = Path(sys.argv[1]).read_text(encoding="utf-8")
+(pipeline,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    exec(compile(pipeline, "README.md", "exec"))
+    (mesh,) = Path(folder).glob("*.vtp")
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    check = vtkXMLPolyDataReader()
+    check.SetFileName(str(mesh))
+    check.Update()
+    triangles = check.GetOutput().GetNumberOfPolys()
+    assert triangles > 1000, triangles
+print("README: the pipeline wrote", triangles, "triangles")
