@@ -76,12 +76,13 @@ function (nurbs_add_kernel name)
     COMPONENT development)
 endfunction ()
 
-# nurbs_add_vtk_module(<Namespace::Name> CLASSES <vtkClass>... [SOURCES <.cxx>...]
+# nurbs_add_vtk_module(<Namespace::Name> CLASSES <vtkClass>... [SOURCES <.cxx>...] [HEADERS <.h>...]
 #                      [KERNEL <target>...] [LINK <target>...])
-# The VTK module of the current room. CLASSES are vtk*.{h,cxx}; SOURCES further files that only this
-# library uses; KERNEL targets whose headers our own headers may include; LINK private libraries.
+# The VTK module of the current room. CLASSES are vtk*.{h,cxx}; SOURCES further files of the library,
+# HEADERS those of their headers that users may include (installed, not wrapped); KERNEL targets whose
+# headers our own headers may include; LINK private libraries.
 function (nurbs_add_vtk_module name)
-  cmake_parse_arguments(arg "" "" "CLASSES;SOURCES;KERNEL;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "CLASSES;SOURCES;HEADERS;KERNEL;LINK" ${ARGN})
   if (NURBS_KERNEL_ONLY)
     return ()
   endif ()
@@ -95,7 +96,11 @@ function (nurbs_add_vtk_module name)
   endif ()
   string(REPLACE ".cxx" "" classes "${present}")
   nurbs_existing(sources ${arg_SOURCES})
-  vtk_module_add_module("${name}" CLASSES ${classes} SOURCES ${sources})
+  nurbs_existing(headers ${arg_HEADERS})
+  vtk_module_add_module("${name}"
+    CLASSES ${classes}
+    SOURCES ${sources}
+    NOWRAP_HEADERS ${headers})
   vtk_module_link("${name}" PUBLIC ${arg_KERNEL} PRIVATE ${arg_LINK})
   vtk_module_compile_options("${name}" PRIVATE
     -Wall -Wextra "$<$<BOOL:${NURBS_WERROR}>:-Werror>")
