@@ -23,7 +23,10 @@ struct SurfaceView
 
   std::int64_t Size() const { return std::int64_t(this->Count[0]) * this->Count[1]; }
   std::int64_t Id(std::int64_t k) const { return this->Ids ? this->Ids[k] : k; }
-  Vec3 Point(std::int64_t k) const { return Eigen::Map<const Vec3>(this->Points + 3 * this->Id(k)); }
+  Vec3 Point(std::int64_t k) const
+  {
+    return Eigen::Map<const Vec3>(this->Points + 3 * this->Id(k));
+  }
   double Weight(std::int64_t k) const { return this->Weights ? this->Weights[this->Id(k)] : 1.0; }
   Vec4 Homogeneous(std::int64_t k) const
   {
@@ -54,9 +57,13 @@ Surface Copy(const SurfaceView& surface);
 /// Point and partial derivatives at one parameter.
 struct SurfaceDerivatives
 {
-  Vec3 S, Su, Sv;    ///< Point and first derivatives.
+  Vec3 S, Su, Sv;     ///< Point and first derivatives.
   Vec3 Suu, Suv, Svv; ///< Second derivatives (zero when not asked for).
 };
+
+/// The derivatives of the projected surface from those of the homogeneous one by the quotient rule:
+/// h[a][b] = d^(a+b) H / du^a dv^b, read for a + b <= order (1 or 2).
+SurfaceDerivatives ProjectDerivatives(const Vec4 (&h)[3][3], int order);
 
 /// Cartesian point at (u, v); the obvious reference, see SurfaceEvaluator for the fast way.
 Vec3 Evaluate(const SurfaceView& surface, double u, double v);

@@ -10,12 +10,21 @@
 namespace nurbs
 {
 
-/// Evaluates one surface many times. Keeps the homogeneous control net contiguous, remembers the
-/// last knot span and the last u- or v-reduction: points along one iso-line cost one curve
-/// evaluation each (coherence). One object per thread; copies are cheap and share the net.
+/// Evaluates one surface many times.
+///
+/// Keeps the homogeneous control net contiguous and the reciprocals of its knot differences, and
+/// remembers what the last point needed (Balazs, Guthe, Klein 2004, section 8): with v and the span
+/// of u unchanged, the inner sums of their equation (1) are reused and a point costs one curve
+/// evaluation; with u unchanged, its basis functions are. Point, PointAndNormal, Batch and Grid give
+/// the same bits for the same parameters, on every machine and in every order of calls; they agree
+/// with nurbs::Evaluate to round-off.
+///
+/// One object per thread; copies are cheap and share the net. The surface's knots, points and
+/// weights must outlive the evaluator. Throws nothing; parameters outside the domain extrapolate.
 class SurfaceEvaluator
 {
 public:
+  /// Copies the net: Count[0] x Count[1] homogeneous points.
   explicit SurfaceEvaluator(const SurfaceView& surface);
 
   /// Cartesian point.
@@ -29,6 +38,7 @@ public:
 
   /// Points and, if `normals` is not null, unit normals of `count` parameters in any order;
   /// `points` and `normals` are xyz triples. Vectorised over the net, no allocation per point.
+  /// Sorted by v, then u, the parameters profit from coherence.
   void Batch(const Vec2* uv, std::int64_t count, double* points, double* normals);
 
   /// The grid of us.size() x vs.size() points, u fastest: one basis evaluation per row and column.
@@ -37,13 +47,19 @@ public:
   const SurfaceView& GetSurface() const { return this->View; }
 
 private:
+  struct Tables;
+
   SurfaceView View;
-  std::shared_ptr<const std::vector<Vec4>> Net;
-  bool Rational = false;
-  int Span[2] = { -1, -1 };
-  double LastV = 0.0;
-  bool RowValid = false;
-  std::vector<Vec4> Row;
+  std::shared_ptr<const Tables> Shared;
+
+  // What the last point left behind. NaN: nothing yet.
+  double Last[2];
+  int Span[2];
+  double Basis[2][2][MaxDegree + 1];           ///< Direction; value or derivative; function.
+  alignas(32) double Row[2][MaxDegree + 1][4]; ///< Inner sums over v with its values, derivatives.
+  int RowStart = -1;                           ///< First column of Row; -1: none.
+
+  friend struct EvaluatorKernel;
 };
 
 } // namespace nurbs
