@@ -6,6 +6,13 @@
 
 namespace nurbs
 {
+namespace
+{
+
+/// Second derivatives divide by a step twice, and must not overflow.
+constexpr double SmallestKnotStep = 1e-100;
+
+} // namespace
 
 std::string CheckKnots(KnotView knots, int degree, std::int64_t count)
 {
@@ -39,7 +46,12 @@ std::string CheckKnots(KnotView knots, int degree, std::int64_t count)
     {
       return "knot " + std::to_string(i) + " is smaller than the one before it";
     }
-    multiplicity = knots[i] == knots[i - 1] ? multiplicity + 1 : 1;
+    const double step = knots[i] - knots[i - 1];
+    if (step > 0.0 && step < SmallestKnotStep)
+    {
+      return "knot " + std::to_string(i) + " differs too little from the one before it to divide by";
+    }
+    multiplicity = step == 0.0 ? multiplicity + 1 : 1;
     if (multiplicity > degree + 1)
     {
       return "knot " + std::to_string(i) + " occurs more than degree + 1 times";

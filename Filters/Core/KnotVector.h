@@ -19,7 +19,8 @@ struct Knot
 };
 
 /// The reason why `knots` is not a valid knot vector of `degree` over `count` points, or "" if it
-/// is: wrong size, NaN or infinite, decreasing, empty domain, interior multiplicity over degree + 1.
+/// is: wrong size, NaN or infinite, decreasing, a step under 1e-100 that is not 0, empty domain,
+/// interior multiplicity over degree + 1.
 std::string CheckKnots(KnotView knots, int degree, std::int64_t count);
 
 /// The parameter domain [knots[degree], knots[size - degree - 1]].

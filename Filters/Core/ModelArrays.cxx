@@ -150,12 +150,14 @@ std::string MakeSurface(const ModelArrays& a, std::int64_t i, SurfaceView& surfa
 {
   SurfaceView s;
   std::int64_t needed = 1;
-  const std::int64_t first = a.Offsets[i];
-  const std::int64_t size = a.Offsets[i + 1] - first;
-  if (!InRange(first, size, Count(a.Connectivity)))
+  const std::int64_t first = a.Offsets[i], last = a.Offsets[i + 1];
+  if (first < 0 || last < first || last > Count(a.Connectivity))
   {
-    return RangeText("the connectivity", first, size, Count(a.Connectivity));
+    return "the connectivity has " + std::to_string(Count(a.Connectivity)) +
+      " entries, but those from " + std::to_string(first) + " to " + std::to_string(last) +
+      " are asked for";
   }
+  const std::int64_t size = last - first;
   for (int dir = 0; dir < 2; ++dir)
   {
     const std::string name = dir == 0 ? " in u" : " in v";

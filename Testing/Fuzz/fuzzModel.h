@@ -7,6 +7,20 @@
 
 #include <fuzzer/FuzzedDataProvider.h>
 
+#include <cstdio>
+#include <cstdlib>
+
+/// Ends the process, which libFuzzer reports with its input, unless `condition` holds.
+#define FUZZ_REQUIRE(condition)                                                    \
+  do                                                                               \
+  {                                                                                \
+    if (!(condition))                                                              \
+    {                                                                              \
+      std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                \
+    }                                                                              \
+  } while (false)
+
 namespace fuzzModel
 {
 

@@ -4,7 +4,6 @@
 #include "fuzzModel.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace
 {
@@ -70,14 +69,6 @@ void DamageOneArray(nurbs::ModelBuilder::Storage& data, FuzzedDataProvider& byte
   }
 }
 
-void Require(bool condition)
-{
-  if (!condition)
-  {
-    std::abort();
-  }
-}
-
 /// A face without an error has a sound surface: finite inside its domain.
 void EvaluateFace(const nurbs::Face& face)
 {
@@ -85,27 +76,27 @@ void EvaluateFace(const nurbs::Face& face)
   for (double s : { 0.0, 0.3, 1.0 })
   {
     const double at[2] = { u.Clamp(u.Min + s * u.Length()), v.Clamp(v.Min + s * v.Length()) };
-    Require(nurbs::Evaluate(face.Geometry, at[0], at[1]).array().isFinite().all());
+    FUZZ_REQUIRE(nurbs::Evaluate(face.Geometry, at[0], at[1]).array().isFinite().all());
   }
 }
 
 /// Its trim curves lie within reach of the domain and name edges that exist.
 void EvaluateTrim(const nurbs::Model& model, const nurbs::Face& face)
 {
-  Require(
+  FUZZ_REQUIRE(
     face.FirstLoop >= 0 && face.FirstLoop + face.LoopCount <= std::int64_t(model.Loops.size()));
   for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
   {
     const nurbs::TrimLoop& loop = model.Loops[l];
-    Require(loop.FirstCurve >= 0 &&
+    FUZZ_REQUIRE(loop.FirstCurve >= 0 &&
       loop.FirstCurve + loop.CurveCount <= std::int64_t(model.TrimCurves.size()));
     for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
     {
       const nurbs::TrimCurve& curve = model.TrimCurves[c];
       const nurbs::Interval t = curve.Geometry.Domain();
-      Require(nurbs::Evaluate(curve.Geometry, t.Min).array().isFinite().all());
-      Require(nurbs::Evaluate(curve.Geometry, t.Max).array().isFinite().all());
-      Require(curve.Edge >= -1 && curve.Edge < std::int64_t(model.Edges.size()));
+      FUZZ_REQUIRE(nurbs::Evaluate(curve.Geometry, t.Min).array().isFinite().all());
+      FUZZ_REQUIRE(nurbs::Evaluate(curve.Geometry, t.Max).array().isFinite().all());
+      FUZZ_REQUIRE(curve.Edge >= -1 && curve.Edge < std::int64_t(model.Edges.size()));
     }
   }
 }
@@ -124,19 +115,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     DamageOneArray(builder.Data, bytes);
   }
   const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
-  Require(assembled.FaceErrors.size() == assembled.Model.Faces.size());
+  FUZZ_REQUIRE(assembled.FaceErrors.size() == assembled.Model.Faces.size());
   for (std::size_t f = 0; f < assembled.Model.Faces.size(); ++f)
   {
     const nurbs::Face& face = assembled.Model.Faces[f];
     if (!assembled.FaceErrors[f].empty())
     {
-      Require(face.Geometry.Size() == 0 && face.LoopCount == 0);
+      FUZZ_REQUIRE(face.Geometry.Size() == 0 && face.LoopCount == 0);
       continue;
     }
     EvaluateFace(face);
     EvaluateTrim(assembled.Model, face);
   }
   // What was not damaged is accepted.
-  Require(damages > 0 || assembled.Problems.empty());
+  FUZZ_REQUIRE(damages > 0 || assembled.Problems.empty());
   return 0;
 }

@@ -5,20 +5,10 @@
 
 #include "Tessellator.h"
 
-#include <cstdlib>
-
 namespace
 {
 
 constexpr double Tolerance = 0.02;
-
-void Require(bool condition)
-{
-  if (!condition)
-  {
-    std::abort();
-  }
-}
 
 /// Half of the points lie on a coarse grid, which makes loops touch and overlap exactly.
 nurbs::Vec2 ConsumePoint(FuzzedDataProvider& bytes)
@@ -76,22 +66,23 @@ void CheckMesh(const nurbs::FaceMesh& mesh, const nurbs::TessellatorOptions& opt
 {
   if (mesh.Status == nurbs::FaceStatus::Failed)
   {
-    Require(mesh.Triangles.empty() && !mesh.Message.empty());
+    FUZZ_REQUIRE(mesh.Triangles.empty() && !mesh.Message.empty());
     return;
   }
-  Require(mesh.Status == nurbs::FaceStatus::Ok || !mesh.Message.empty());
-  Require(mesh.Status == nurbs::FaceStatus::Capped ||
+  FUZZ_REQUIRE(mesh.Status == nurbs::FaceStatus::Ok || !mesh.Message.empty());
+  FUZZ_REQUIRE(mesh.Status == nurbs::FaceStatus::Capped ||
     mesh.CertifiedError <= options.Tolerance * (1.0 + 1e-9));
-  Require(mesh.Normals.size() == mesh.Points.size() && mesh.UV.size() == mesh.Points.size());
-  Require(mesh.Triangles.size() % 3 == 0);
+  FUZZ_REQUIRE(mesh.Normals.size() == mesh.Points.size() && mesh.UV.size() == mesh.Points.size());
+  FUZZ_REQUIRE(mesh.Triangles.size() % 3 == 0);
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
-    Require(mesh.Points[i].array().isFinite().all() && mesh.Normals[i].array().isFinite().all());
-    Require((mesh.UV[i].array() >= -0.02).all() && (mesh.UV[i].array() <= 1.02).all());
+    FUZZ_REQUIRE(
+      mesh.Points[i].array().isFinite().all() && mesh.Normals[i].array().isFinite().all());
+    FUZZ_REQUIRE((mesh.UV[i].array() >= -0.02).all() && (mesh.UV[i].array() <= 1.02).all());
   }
   for (int corner : mesh.Triangles)
   {
-    Require(corner >= 0 && corner < static_cast<int>(mesh.Points.size()));
+    FUZZ_REQUIRE(corner >= 0 && corner < static_cast<int>(mesh.Points.size()));
   }
 }
 
@@ -117,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.Curves.Simplify = bytes.ConsumeBool();
   const nurbs::TessellationResult result =
     nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options);
-  Require(!result.Aborted && result.Meshes.size() == 1);
+  FUZZ_REQUIRE(!result.Aborted && result.Meshes.size() == 1);
   CheckMesh(result.Meshes[0], options);
   return 0;
 }
