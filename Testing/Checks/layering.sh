@@ -26,9 +26,10 @@ cgal='CGAL/'
 opengl='GL/|GLES[0-9]*/|EGL/|epoxy/|glad/|vtk_glew|vtkOpenGL|vtkEGL'
 qt='Q(t[A-Z][A-Za-z0-9]*/|[A-Z][A-Za-z0-9]*[>"/])|pq[A-Z]'
 
-offence 'only files named vtk* (and Test*, main.cxx of the command line) may know VTK' < <(
-  list | grep -vE '/(vtk|pq|Test)[^/]*$' | grep -vE '^(Plugin/CommandLine|Testing/(Benchmarks|Peers|Rendering|Plugin))/' |
-    including "$vtk")
+offence 'only files named vtk*, and main.cxx of the command line, may know VTK' < <(
+  list | grep -vE '^Testing/|/(vtk|pq)[^/]*$|^Plugin/CommandLine/main\.cxx$' | including "$vtk")
+offence 'math tests, named nurbs*, may not know VTK' < <(
+  list | grep -E '^Testing/.*/nurbs[^/]*$' | including "$vtk")
 offence 'OpenCASCADE belongs in Filters/Sources' < <(
   list | grep -vE '^(Filters/Sources|Testing/(Filters/Sources|Peers|Benchmarks|Verification))/' |
     including "$opencascade")
