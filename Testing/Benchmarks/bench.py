@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the benchmark scripts share: programs, models, child processes with a time limit, tables."""
+
+import argparse
+import glob
+import json
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BUILD = os.environ.get("BUILD", os.path.join(ROOT, "build", "release"))
+OUTPUT = os.environ.get("NURBS_BENCH_OUTPUT", os.path.join(ROOT, "build", "bench"))
+OCCT_DATA = "/usr/share/opencascade/data"
+WITHOUT_FACES = {"asahi.brep", "edge.brep"}
+
+
+def arguments(description, **extra):
+    """The options that every script has, and those in extra (name=(default, help))."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folders", nargs="*", help="folders of more models")
+    parser.add_argument("--only", default="", help="names that must contain one of these (a,b,...)")
+    parser.add_argument("--limit", type=float, default=300, help="seconds a child process may take")
+    for name, (default, text) in extra.items():
+        kind = {"nargs": "?", "const": True} if isinstance(default, bool) else {"type": type(default)}
+        parser.add_argument("--" + name.replace("_", "-"), default=default, help=text, **kind)
+    return parser.parse_args()
+
+
+def models(folders=(), only=""):
+    """CAD files of Debian's occt-misc, and those of other folders that it does not have."""
+    found = []
+    for pattern in ("occ/*.brep", "occ/*.rle", "step/*.step", "iges/*.iges"):
+        found += glob.glob(os.path.join(OCCT_DATA, pattern))
+    names = {os.path.basename(f) for f in found}
+    for folder in folders:
+        for file in glob.glob(os.path.join(folder, "*")):
+            extension = file.rsplit(".", 1)[-1].lower()
+            known = extension in ("step", "stp", "iges", "igs", "brep", "brp", "rle")
+            if known and os.path.basename(file) not in names:
+                found.append(file)
+    wanted = [w for w in only.split(",") if w]
+    found = [f for f in found if os.path.basename(f) not in WITHOUT_FACES]
+    return sorted(
+        (f for f in found if not wanted or any(w in os.path.basename(f) for w in wanted)),
+        key=lambda f: (os.path.getsize(f), f),
+    )
+
+
+def program(name):
+    path = os.path.join(BUILD, "bin", name)
+    if not os.path.exists(path):
+        sys.exit(f"{path} is missing: build the release preset first (./run bench does)")
+    return path
+
+
+def run_json(command, limit):
+    """The last JSON line that the command prints, or {"error": ...}. Other output is kept."""
+    try:
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=limit, text=True
+        )
+    except subprocess.TimeoutExpired:
+        return {"error": f"no result in {limit:g} s"}
+    for line in reversed(done.stdout.splitlines()):
+        if line.startswith("{"):
+            return json.loads(line)
+    if done.returncode < 0:
+        return {"error": f"killed by {signal.Signals(-done.returncode).name}"}
+    message = done.stderr.strip().splitlines()
+    return {"error": message[-1] if message else f"exit status {done.returncode}"}
+
+
+def scratch(suffix):
+    handle, path = tempfile.mkstemp(suffix=suffix)
+    os.close(handle)
+    return path
+
+
+def machine():
+    """One line on what the figures were measured with."""
+    cpu = "unknown processor"
+    with open("/proc/cpuinfo", encoding="ascii", errors="replace") as info:
+        for line in info:
+            if line.startswith("model name"):
+                cpu = line.split(":", 1)[1].strip()
+                break
+    load = os.getloadavg()[0]
+    return f"{cpu}, {os.cpu_count()} processors, load {load:.1f} at the start"
+
+
+def median(values):
+    return statistics.median(values) if values else float("nan")
+
+
+def show(value):
+    """Numbers short, everything else as it is."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value:,}"
+    if isinstance(value, float):
+        if value != value:
+            return "-"
+        return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+    return str(value)
+
+
+class Report:
+    """Text and tables, to the terminal as they come and to build/bench/NAME.md at the end."""
+
+    def __init__(self, name, title):
+        self.name = name
+        self.lines = []
+        self.text(f"# {title}")
+        self.text(machine())
+
+    def text(self, line):
+        print(line, flush=True)
+        self.lines += [line, ""]
+
+    def table(self, header, rows):
+        cells = [[show(c) for c in row] for row in [header] + rows]
+        width = [max(len(row[i]) for row in cells) for i in range(len(header))]
+        for row in cells:
+            left = row[0].ljust(width[0])
+            print("  ".join([left] + [c.rjust(w) for c, w in zip(row[1:], width[1:])]), flush=True)
+        print()
+        self.lines.append("| " + " | ".join(cells[0]) + " |")
+        self.lines.append("|---" + "|--:" * (len(header) - 1) + "|")
+        self.lines += ["| " + " | ".join(row) + " |" for row in cells[1:]]
+        self.lines.append("")
+
+    def save(self):
+        os.makedirs(OUTPUT, exist_ok=True)
+        path = os.path.join(OUTPUT, self.name + ".md")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("\n".join(self.lines))
+        print(f"written to {path}", flush=True)
