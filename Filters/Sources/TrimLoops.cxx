@@ -60,18 +60,18 @@ private:
   {
     OrderedLoop loop;
     const std::size_t none = this->Ends.size();
-    Vec2 shift = Vec2::Zero();
+    this->Shift = Vec2::Zero();
     for (std::size_t current = first; current != none;)
     {
       this->Used[current] = true;
-      loop.Items.push_back({ current, shift });
-      const Vec2 end = this->Ends[current].End + shift;
+      loop.Items.push_back({ current, this->Shift });
+      const Vec2 end = this->Ends[current].End + this->Shift;
       const bool closed =
         this->Meets(current, first) && (end - this->Ends[first].Start).norm() <= this->Near;
       const std::size_t next = this->Next(current, end, closed);
-      if (next != none)
+      if (next != none && this->Gap(end, next) > this->Near)
       {
-        shift = PeriodsTo(end, this->Ends[next].Start, this->Period);
+        this->Shift = PeriodsTo(end, this->Ends[next].Start, this->Period);
       }
       current = next;
     }
@@ -83,10 +83,20 @@ private:
     return this->Ends[a].EndVertex >= 0 && this->Ends[a].EndVertex == this->Ends[b].StartVertex;
   }
 
+  /// Distance to a curve's start that is where the loop has come to by now.
+  double Gap(const Vec2& end, std::size_t next) const
+  {
+    return (end - this->Ends[next].Start - this->Shift).norm();
+  }
+
+  /// Gap, or the distance with the best whole periods if that is smaller. Periods come last: on a
+  /// torus all ends are the same but for periods.
   double Distance(const Vec2& end, std::size_t next) const
   {
+    const double gap = this->Gap(end, next);
     const Vec2& start = this->Ends[next].Start;
-    return (end - start - PeriodsTo(end, start, this->Period)).norm();
+    const double wrapped = (end - start - PeriodsTo(end, start, this->Period)).norm();
+    return gap <= this->Near ? gap : std::min(gap, wrapped + this->Near);
   }
 
   /// The curve after `current`; none (the number of curves) if the loop ends here.
@@ -96,7 +106,7 @@ private:
     for (const std::size_t neighbour : { current + 1, current - 1 })
     {
       if (neighbour < none && !this->Used[neighbour] && this->Meets(current, neighbour) &&
-        this->Distance(end, neighbour) <= this->Near)
+        this->Gap(end, neighbour) <= this->Near)
       {
         return neighbour;
       }
@@ -135,6 +145,7 @@ private:
   const Vec2 Period;
   double Near = 0.0; ///< Ends this close in (u, v) are one.
   std::vector<bool> Used;
+  Vec2 Shift = Vec2::Zero(); ///< Whole periods that the loop has run through.
 };
 
 } // namespace
