@@ -49,7 +49,8 @@ std::string CheckKnots(KnotView knots, int degree, std::int64_t count)
     const double step = knots[i] - knots[i - 1];
     if (step > 0.0 && step < SmallestKnotStep)
     {
-      return "knot " + std::to_string(i) + " differs too little from the one before it to divide by";
+      return "knot " + std::to_string(i) +
+        " differs too little from the one before it to divide by";
     }
     multiplicity = step == 0.0 ? multiplicity + 1 : 1;
     if (multiplicity > degree + 1)
