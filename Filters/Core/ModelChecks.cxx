@@ -198,6 +198,36 @@ std::string CheckLoops(
   return std::string();
 }
 
+bool IsNaturallyBounded(const Model& model, const Face& face)
+{
+  if (face.LoopCount != 1)
+  {
+    return face.LoopCount == 0;
+  }
+  const DomainBox domain(face.Geometry);
+  const TrimLoop& loop = model.Loops[face.FirstLoop];
+  for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+  {
+    const CurveView<2>& curve = model.TrimCurves[c].Geometry;
+    Box2 box;
+    for (int i = 0; i < curve.Count; ++i)
+    {
+      box.extend(domain.Relative(curve.Point(i)));
+    }
+    const auto on = [&box](int dir, double side) {
+      return std::abs(box.min()[dir] - side) <= NegligiblePart &&
+        std::abs(box.max()[dir] - side) <= NegligiblePart;
+    };
+    if (!on(0, 0.0) && !on(0, 1.0) && !on(1, 0.0) && !on(1, 1.0))
+    {
+      return false;
+    }
+  }
+  double area, length;
+  MeasureLoop(model, loop, domain, area, length);
+  return area > 2.0 - 8.0 * NegligiblePart;
+}
+
 namespace
 {
 

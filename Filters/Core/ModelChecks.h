@@ -17,6 +17,10 @@ namespace nurbs
 std::string CheckLoops(
   const Model& model, const Face& face, double gapLimit, std::vector<std::string>& warnings);
 
+/// True if the face has no loop, or one that runs along the boundary of its domain: trimming takes
+/// nothing away.
+bool IsNaturallyBounded(const Model& model, const Face& face);
+
 /// Compares every edge with the first trim curve that names it, at both ends and in the middle. An
 /// edge that is farther away than four times its tolerance (and 1e-6 of the model's size) was left
 /// behind when points were moved: AssembleOptions::CheckEdges says what happens then.

@@ -225,6 +225,19 @@ void vtkNURBSModel::CopyFaceAttributes(
   }
 }
 
+void vtkNURBSModel::RemoveStructure(vtkFieldData* field)
+{
+  for (const char* name : { names::Knots, names::LoopCurveStart, names::LoopCurveCount,
+         names::TrimCurveDegree, names::TrimCurveKnotStart, names::TrimCurvePointStart,
+         names::TrimCurvePointCount, names::TrimCurveEdgeId, names::TrimCurveReversed,
+         names::TrimPoints, names::TrimKnots, names::EdgeDegree, names::EdgeKnotStart,
+         names::EdgePointStart, names::EdgePointCount, names::EdgeVertices, names::EdgeTolerance,
+         names::EdgePoints, names::EdgeKnots, names::VertexPoints })
+  {
+    field->RemoveArray(name);
+  }
+}
+
 vtkIdType vtkNURBSModel::GetFaceId(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   vtkDataArray* ids = grid->GetCellData()->GetArray(names::FaceId);

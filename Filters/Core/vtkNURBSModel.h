@@ -50,6 +50,7 @@
 #include <vector> // For std::vector
 
 class vtkDataSetAttributes;
+class vtkFieldData;
 class vtkIdTypeArray;
 class vtkUnstructuredGrid;
 class vtkNURBSModelView;
@@ -112,6 +113,12 @@ public:
    */
   static void CopyFaceAttributes(
     vtkUnstructuredGrid* grid, vtkIdTypeArray* faces, vtkDataSetAttributes* target);
+
+  /**
+   * Removes the arrays that describe a model's surfaces, loops and edges from field data that a
+   * filter passed on to an output that is no model. LengthUnit and foreign arrays stay.
+   */
+  static void RemoveStructure(vtkFieldData* field);
 
   ///@{
   /**

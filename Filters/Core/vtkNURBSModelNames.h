@@ -3,7 +3,7 @@
  * @file vtkNURBSModelNames.h
  * @brief Names of the arrays of a model; see vtkNURBSModel for their meaning.
  *
- * Private to vtkNURBSModel and vtkNURBSModelView: other code asks vtkNURBSModel.
+ * Private to this module: code elsewhere asks vtkNURBSModel.
  */
 #ifndef vtkNURBSModelNames_h
 #define vtkNURBSModelNames_h
@@ -47,6 +47,8 @@ inline constexpr char LengthUnit[] = "LengthUnit";
 inline constexpr char UnconvertedFaces[] = "UnconvertedFaces";
 // Cell data of outputs.
 inline constexpr char EdgeId[] = "EdgeId";
+inline constexpr char PatchDomain[] = "PatchDomain";
+inline constexpr char Trimmed[] = "Trimmed";
 } // namespace vtkNURBSModelNames
 
 #endif

@@ -263,3 +263,16 @@ std::string vtkNURBSModelView::Describe(const ModelProblem& problem) const
   text << problem.Reason;
   return text.str();
 }
+
+std::string vtkNURBSModelView::DescribeFaceErrors() const
+{
+  std::string text;
+  for (const ModelProblem& problem : this->GetProblems())
+  {
+    if (problem.Severity == ModelProblem::Level::Error)
+    {
+      text += (text.empty() ? "" : "\n") + this->Describe(problem);
+    }
+  }
+  return text;
+}

@@ -38,6 +38,9 @@ public:
   /// A problem as one line: "error: cell 3 (FaceId 17): knots in u decrease ...".
   std::string Describe(const nurbs::ModelProblem& problem) const;
 
+  /// One line for every face with an error, "" if there is none: what a filter warns of.
+  std::string DescribeFaceErrors() const;
+
 private:
   struct Internals;
   std::unique_ptr<Internals> Content;

@@ -2,7 +2,7 @@
 // A synthetic load with the make-up of a car body: many bicubic faces, shared boundaries, holes of
 // many sizes, and faces that fill a hole. It stands in for the models of 8,036 and 31,040 trimmed
 // patches of Balazs, Guthe and Klein (2004), which are not public.
-#include "ShapeStitcher.h"
+#include "PatchStitcher.h"
 #include "Shapes.h"
 
 #include <algorithm>
@@ -243,7 +243,7 @@ Curve<3> FitLifted(const SurfaceView& patch, const CurveView<2>& trim, double& d
 }
 
 /// Adds a hole to the current face. Returns its edge.
-std::int64_t AddHole(ShapeStitcher& stitcher, const Surface& patch, const Curve<2>& outline)
+std::int64_t AddHole(PatchStitcher& stitcher, const Surface& patch, const Curve<2>& outline)
 {
   double deviation = 0.0;
   const Curve<3> fit = FitLifted(patch.View(), outline.View(), deviation);
@@ -264,7 +264,7 @@ FaceAttributes Attributes(std::int64_t tile)
   return attributes;
 }
 
-void AddTile(ShapeStitcher& stitcher, const Surface& patch, std::int64_t tile, bool plug)
+void AddTile(PatchStitcher& stitcher, const Surface& patch, std::int64_t tile, bool plug)
 {
   stitcher.AddFace(patch, Attributes(tile));
   const int holes = HoleCount(tile);
@@ -299,7 +299,7 @@ void AddCarBody(ModelBuilder& builder, std::int64_t faces)
   }
   const auto columns = static_cast<std::int64_t>(std::ceil(std::sqrt(1.4 * tiles)));
   const BodyGrid grid(columns, (tiles + columns - 1) / columns);
-  ShapeStitcher stitcher(builder, 1e-12 * Length);
+  PatchStitcher stitcher(builder, 1e-12 * Length);
   std::int64_t left = faces;
   for (std::int64_t tile = 0; tile < tiles; ++tile)
   {

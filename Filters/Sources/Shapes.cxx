@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Shapes.h"
 
-#include "ShapeStitcher.h"
+#include "PatchStitcher.h"
 
 #include <cmath>
 #include <sstream>
@@ -82,7 +82,7 @@ Surface PlaneSquare(const Vec2& low, const Vec2& high, double z)
 }
 
 /// A loop of one closed curve in a plane whose u and v are x and y.
-void AddPlanarLoop(ShapeStitcher& stitcher, const Curve<2>& trim, double z, bool reversed)
+void AddPlanarLoop(PatchStitcher& stitcher, const Curve<2>& trim, double z, bool reversed)
 {
   const Curve<3> lifted = LiftCurve(trim, Vec3(0, 0, z), Vec3::UnitX(), Vec3::UnitY());
   stitcher.GetBuilder().BeginLoop();
@@ -91,7 +91,7 @@ void AddPlanarLoop(ShapeStitcher& stitcher, const Curve<2>& trim, double z, bool
 
 /// A round plane of the given radius around the z axis.
 void AddRoundPlane(
-  ShapeStitcher& stitcher, double radius, double z, const FaceAttributes& attributes)
+  PatchStitcher& stitcher, double radius, double z, const FaceAttributes& attributes)
 {
   const double half = 1.25 * radius;
   stitcher.GetBuilder().BeginFace(
@@ -109,7 +109,7 @@ void AddSphere(ModelBuilder& builder, double radius)
     { Vec2(0, -radius), Vec2(radius, -radius), Vec2(radius, 0), Vec2(radius, radius),
       Vec2(0, radius) },
     { 1, w, 1, w, 1 } };
-  ShapeStitcher(builder, RoundingPart * radius).AddFace(Revolve(half), Named("sphere"));
+  PatchStitcher(builder, RoundingPart * radius).AddFace(Revolve(half), Named("sphere"));
 }
 
 void AddTorus(ModelBuilder& builder, double radius, double tube)
@@ -122,14 +122,14 @@ void AddTorus(ModelBuilder& builder, double radius, double tube)
   }
   const Curve<2> circle = TrimCircle(Vec2(radius, 0), tube);
   const Profile profile{ 2, circle.Knots, circle.Points, circle.Weights };
-  ShapeStitcher(builder, RoundingPart * (radius + tube)).AddFace(Revolve(profile), Named("torus"));
+  PatchStitcher(builder, RoundingPart * (radius + tube)).AddFace(Revolve(profile), Named("torus"));
 }
 
 void AddCylinder(ModelBuilder& builder, double radius, double height, bool capped)
 {
   RequirePositive("the radius of a cylinder", radius);
   RequirePositive("the height of a cylinder", height);
-  ShapeStitcher stitcher(builder, RoundingPart * (radius + height));
+  PatchStitcher stitcher(builder, RoundingPart * (radius + height));
   const Profile line{ 1, { 0, 0, height, height }, { Vec2(radius, 0), Vec2(radius, height) },
     { 1, 1 } };
   stitcher.AddFace(Revolve(line), Named("cylinder"));
@@ -144,7 +144,7 @@ void AddCone(ModelBuilder& builder, double radius, double height, bool capped)
 {
   RequirePositive("the radius of a cone", radius);
   RequirePositive("the height of a cone", height);
-  ShapeStitcher stitcher(builder, RoundingPart * (radius + height));
+  PatchStitcher stitcher(builder, RoundingPart * (radius + height));
   const Profile line{ 1, { 0, 0, height, height }, { Vec2(radius, 0), Vec2(0, height) }, { 1, 1 } };
   stitcher.AddFace(Revolve(line), Named("cone"));
   if (capped)
@@ -156,7 +156,7 @@ void AddCone(ModelBuilder& builder, double radius, double height, bool capped)
 void AddDisc(ModelBuilder& builder, double radius)
 {
   RequirePositive("the radius of a disc", radius);
-  ShapeStitcher stitcher(builder, RoundingPart * radius);
+  PatchStitcher stitcher(builder, RoundingPart * radius);
   AddRoundPlane(stitcher, radius, 0.0, Named("disc"));
 }
 
@@ -206,7 +206,7 @@ void CheckPlate(double width, double depth, int holesX, int holesY)
 }
 
 /// A square hole as four straight edges, clockwise.
-void AddSquareHole(ShapeStitcher& stitcher, const PlateHole& hole)
+void AddSquareHole(PatchStitcher& stitcher, const PlateHole& hole)
 {
   const double h = hole.Half;
   const Vec2 corners[5] = { hole.Center + Vec2(-h, -h), hole.Center + Vec2(-h, h),
@@ -225,7 +225,7 @@ void AddSquareHole(ShapeStitcher& stitcher, const PlateHole& hole)
 void AddPlate(ModelBuilder& builder, double width, double depth, int holesX, int holesY)
 {
   CheckPlate(width, depth, holesX, holesY);
-  ShapeStitcher stitcher(builder, RoundingPart * (width + depth));
+  PatchStitcher stitcher(builder, RoundingPart * (width + depth));
   stitcher.AddFace(PlaneSquare(Vec2(0, 0), Vec2(width, depth), 0.0), Named("plate"));
   for (const PlateHole& hole : PlateHoles(width, depth, holesX, holesY))
   {

@@ -2,7 +2,7 @@
 // The Utah teapot (Martin Newell, 1975; public domain). Body, rim, bottom and lid are solids of
 // revolution, so a profile and the shape of a quarter turn say it all; of handle and spout one half
 // is listed, the other is its mirror image.
-#include "ShapeStitcher.h"
+#include "PatchStitcher.h"
 #include "Shapes.h"
 
 #include <array>
@@ -84,7 +84,7 @@ Row QuarterTurn(const ProfilePoint& p, int quarters)
 }
 
 template <std::size_t Count>
-void AddRevolved(ShapeStitcher& stitcher, const ProfilePoint (&profile)[Count], const char* name)
+void AddRevolved(PatchStitcher& stitcher, const ProfilePoint (&profile)[Count], const char* name)
 {
   FaceAttributes attributes;
   attributes.Name = name;
@@ -103,7 +103,7 @@ void AddRevolved(ShapeStitcher& stitcher, const ProfilePoint (&profile)[Count], 
 }
 
 template <std::size_t Count>
-void AddMirrored(ShapeStitcher& stitcher, const Section (&sections)[Count], const char* name)
+void AddMirrored(PatchStitcher& stitcher, const Section (&sections)[Count], const char* name)
 {
   FaceAttributes attributes;
   attributes.Name = name;
@@ -129,7 +129,7 @@ void AddMirrored(ShapeStitcher& stitcher, const Section (&sections)[Count], cons
 
 void AddTeapot(ModelBuilder& builder)
 {
-  ShapeStitcher stitcher(builder, 1e-11);
+  PatchStitcher stitcher(builder, 1e-11);
   AddRevolved(stitcher, Body, "body");
   AddRevolved(stitcher, Lid, "lid");
   AddMirrored(stitcher, Handle, "handle");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file ShapeStitcher.h
+/// @file PatchStitcher.h
 /// @brief Adds surfaces to a model and recognises the edges that they share.
 ///
 /// Two sides of surfaces are one edge if their control points, weights and knots are the same, bit
@@ -14,12 +14,12 @@
 namespace nurbs
 {
 
-/// Places faces of one shape into a builder, which must outlive it.
-class ShapeStitcher
+/// Places surfaces into a builder, which must outlive it.
+class PatchStitcher
 {
 public:
   /// `tolerance` becomes EdgeTolerance of the exact edges (rounding only; a length).
-  ShapeStitcher(ModelBuilder& builder, double tolerance)
+  PatchStitcher(ModelBuilder& builder, double tolerance)
     : Builder(builder)
     , Tolerance(tolerance)
   {}

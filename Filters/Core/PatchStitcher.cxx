@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ShapeStitcher.h"
+#include "PatchStitcher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ bool IsPoint(const Curve<3>& curve)
 
 } // namespace
 
-std::int64_t ShapeStitcher::Vertex(const Vec3& position)
+std::int64_t PatchStitcher::Vertex(const Vec3& position)
 {
   const std::string key = Key({ position[0], position[1], position[2] });
   const auto found = this->Vertices.find(key);
@@ -87,7 +87,7 @@ std::int64_t ShapeStitcher::Vertex(const Vec3& position)
   return vertex;
 }
 
-ShapeStitcher::EdgeUse ShapeStitcher::Edge(const Curve<3>& curve)
+PatchStitcher::EdgeUse PatchStitcher::Edge(const Curve<3>& curve)
 {
   const std::string key = Key(Numbers(curve));
   const auto found = this->Edges.find(key);
@@ -106,7 +106,7 @@ ShapeStitcher::EdgeUse ShapeStitcher::Edge(const Curve<3>& curve)
   return { edge, false };
 }
 
-void ShapeStitcher::AddSide(const Surface& surface, int side)
+void PatchStitcher::AddSide(const Surface& surface, int side)
 {
   const SurfaceView view = surface.View();
   const Interval u = view.Domain(0), v = view.Domain(1);
@@ -132,7 +132,7 @@ void ShapeStitcher::AddSide(const Surface& surface, int side)
     TrimLine(start, end, range).View(), use.Edge, backwards != use.Flipped);
 }
 
-std::int64_t ShapeStitcher::AddFace(const Surface& surface, const FaceAttributes& attributes)
+std::int64_t PatchStitcher::AddFace(const Surface& surface, const FaceAttributes& attributes)
 {
   const std::int64_t face = this->Builder.BeginFace(surface.View(), attributes);
   this->Builder.BeginLoop();
