@@ -15,52 +15,67 @@
 #define NURBS_INLINE inline
 #endif
 
+/// Calls a function template with the degree as a constant from 1 to 5 (the compiler unrolls its
+/// loops), or -1 for any other.
+#define NURBS_FOR_DEGREE(degree, function, arguments)                                              \
+  switch (degree)                                                                                  \
+  {                                                                                                \
+    case 1:                                                                                        \
+      function<1> arguments;                                                                       \
+      break;                                                                                       \
+    case 2:                                                                                        \
+      function<2> arguments;                                                                       \
+      break;                                                                                       \
+    case 3:                                                                                        \
+      function<3> arguments;                                                                       \
+      break;                                                                                       \
+    case 4:                                                                                        \
+      function<4> arguments;                                                                       \
+      break;                                                                                       \
+    case 5:                                                                                        \
+      function<5> arguments;                                                                       \
+      break;                                                                                       \
+    default:                                                                                       \
+      function<-1> arguments;                                                                      \
+  }
+
 namespace nurbs
 {
+
+/// What is precomputed for one parameter direction.
+struct DirectionTables
+{
+  int Degree = 0;
+  int Last = 0; ///< The last span of the domain that is not empty.
+  const double* Knots = nullptr;
+  /// Reciprocals of the knot differences of the Cox-de Boor recursion: for each span the
+  /// degree (degree + 1) / 2 values in the order of their use.
+  std::vector<double> Inverse;
+  /// The domain in equal buckets, twice as many as spans: the span where each begins.
+  std::vector<int> Buckets;
+  double Min = 0.0;
+  double BucketScale = 0.0; ///< Buckets a unit of the parameter.
+  /// Squared length under which the derivative is looked at twice: a small fraction of the longest
+  /// control vector of the derivative surface.
+  double Suspicious = 0.0;
+};
 
 /// What all copies of an evaluator share.
 struct SurfaceEvaluator::Tables
 {
   std::vector<double> Net; ///< 4 homogeneous numbers a point, u fastest.
   bool Rational = false;
-  /// Reciprocals of the knot differences of the Cox-de Boor recursion: for each span the
-  /// degree (degree + 1) / 2 values in the order of their use.
-  std::vector<double> Inverse[2];
-  /// Squared length under which a derivative is looked at twice: a small fraction of the longest
-  /// control vector of the derivative surface.
-  double Suspicious[2] = { 0.0, 0.0 };
+  DirectionTables Dir[2];
 };
 
 namespace
 {
 
-/// Derivatives under this fraction of their largest, and angles under this fraction of a right one,
-/// go the careful way of nurbs::Normal. Only a cost: both ways agree where they meet.
+/// Derivatives under this fraction of their largest, and sines of the angle between the two under
+/// it, go the careful way of nurbs::Normal. Only a cost: both ways agree where they meet.
 constexpr double SuspiciousFraction = 1e-4;
 
-std::vector<double> InverseDifferences(KnotView knots, int degree)
-{
-  const int spans = static_cast<int>(knots.size()) - degree - 1;
-  const int each = degree * (degree + 1) / 2;
-  std::vector<double> inverse(std::size_t(spans) * each, 0.0);
-  for (int k = degree; k < spans; ++k)
-  {
-    if (!(knots[k] < knots[k + 1]))
-    {
-      continue;
-    }
-    double* to = inverse.data() + std::size_t(k) * each;
-    for (int d = 1; d <= degree; ++d)
-    {
-      for (int r = 0; r < d; ++r)
-      {
-        *to++ = 1.0 / (knots[k + r + 1] - knots[k + r + 1 - d]);
-      }
-    }
-  }
-  return inverse;
-}
-
+/// The longest control vector of the derivative surface in direction `dir`.
 double LongestControlVector(const SurfaceView& surface, int dir)
 {
   const int p = surface.Degree[dir];
@@ -75,20 +90,76 @@ double LongestControlVector(const SurfaceView& surface, int dir)
       const double support = surface.Knots[dir][n + p + 1] - surface.Knots[dir][n + 1];
       if (support > 0.0)
       {
-        longest =
-          std::max(longest, p * (surface.Point(k + step) - surface.Point(k)).norm() / support);
+        const double length = (surface.Point(k + step) - surface.Point(k)).norm();
+        longest = std::max(longest, p * length / support);
       }
     }
   }
   return longest;
 }
 
-/// Four lanes x, y, z, w: two SSE registers or one of AVX.
-#if defined(__GNUC__)
+DirectionTables MakeDirection(const SurfaceView& surface, int dir)
+{
+  DirectionTables tables;
+  const KnotView knots = surface.Knots[dir];
+  const int degree = surface.Degree[dir];
+  const int count = surface.Count[dir];
+  tables.Degree = degree;
+  tables.Knots = knots.data();
+  const Interval domain = Domain(knots, degree);
+  tables.Last = FindSpan(knots, degree, domain.Max);
+  const int each = degree * (degree + 1) / 2;
+  tables.Inverse.assign(std::size_t(count) * each, 0.0);
+  for (int k = degree; k < count; ++k)
+  {
+    double* to = tables.Inverse.data() + std::size_t(k) * each;
+    for (int d = 1; d <= degree && knots[k] < knots[k + 1]; ++d)
+    {
+      for (int r = 0; r < d; ++r)
+      {
+        *to++ = 1.0 / (knots[k + r + 1] - knots[k + r + 1 - d]);
+      }
+    }
+  }
+  const int buckets = 2 * (count - degree);
+  tables.Min = domain.Min;
+  tables.BucketScale = buckets / domain.Length();
+  tables.Buckets.resize(buckets);
+  for (int b = 0; b < buckets; ++b)
+  {
+    tables.Buckets[b] = FindSpan(knots, degree, domain.Min + b / tables.BucketScale);
+  }
+  const double fraction = SuspiciousFraction * LongestControlVector(surface, dir);
+  tables.Suspicious = fraction * fraction;
+  return tables;
+}
+
+/// FindSpan by table: a few steps from the first span of the parameter's bucket.
+NURBS_INLINE int LookUpSpan(const DirectionTables& tables, double t)
+{
+  const double* knots = tables.Knots;
+  const double place = (t - tables.Min) * tables.BucketScale;
+  const double last = static_cast<double>(tables.Buckets.size() - 1);
+  int span = tables.Buckets[static_cast<int>(place > 0.0 ? (place < last ? place : last) : 0.0)];
+  while (span > tables.Degree && t < knots[span])
+  {
+    --span;
+  }
+  while (span < tables.Last && t >= knots[span + 1])
+  {
+    ++span;
+  }
+  while (!(knots[span] < knots[span + 1])) // before a domain that starts with a multiple knot
+  {
+    ++span;
+  }
+  return span;
+}
+
+/// Four lanes x, y, z, w of one point, or one coordinate of four points: two SSE registers or one of
+/// AVX.
 using Quad = double __attribute__((vector_size(32)));
-#else
-using Quad = Eigen::Array4d;
-#endif
+using QuadMask = std::int64_t __attribute__((vector_size(32)));
 
 NURBS_INLINE void Load(const double* from, Quad& to)
 {
@@ -100,13 +171,27 @@ NURBS_INLINE void Store(const Quad& from, double* to)
   std::memcpy(to, &from, sizeof(Quad));
 }
 
+/// Rows to columns.
+NURBS_INLINE void Transpose(Quad (&m)[4])
+{
+  const Quad a = __builtin_shufflevector(m[0], m[1], 0, 4, 2, 6);
+  const Quad b = __builtin_shufflevector(m[0], m[1], 1, 5, 3, 7);
+  const Quad c = __builtin_shufflevector(m[2], m[3], 0, 4, 2, 6);
+  const Quad d = __builtin_shufflevector(m[2], m[3], 1, 5, 3, 7);
+  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  m[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  m[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
 /// Basis functions N and first derivatives dN on one span: EvaluateBasis with the divisions done in
 /// advance. P >= 0 is the degree at compile time; P = -1 takes it from `degree`.
 template <int P>
-NURBS_INLINE void SpanBasis(
-  const double* knots, const double* inverse, int degree, double t, double* N, double* dN)
+NURBS_INLINE void SpanBasis(const double* knots, const double* inverse, int degree, double t,
+  double* values, double* derivatives)
 {
   const int p = P >= 0 ? P : degree;
+  double N[P >= 0 ? P + 1 : MaxDegree + 1]; // local, to stay in registers
   N[0] = 1.0;
   for (int d = 1; d < p; ++d)
   {
@@ -125,74 +210,128 @@ NURBS_INLINE void SpanBasis(
   {
     const double scaled = N[r] * *inverse++;
     const double derivative = p * scaled;
-    N[r] = saved + (knots[r + 1] - t) * scaled;
+    values[r] = saved + (knots[r + 1] - t) * scaled;
     saved = (t - knots[r + 1 - p]) * scaled;
-    dN[r] = slope - derivative;
+    derivatives[r] = slope - derivative;
     slope = derivative;
   }
-  N[p] = saved;
-  dN[p] = slope;
+  values[p] = saved;
+  derivatives[p] = slope;
 }
 
-/// The inner sum of Balazs' equation (1) for one column of the net, values and v derivatives.
-template <int Q, bool Derive>
+/// The inner sum of Balazs' equation (1) for one column of the net: the value, then the v
+/// derivative.
+template <int Q>
 NURBS_INLINE void SumColumn(const double* column, std::int64_t stride, int degree, const double* N,
-  const double* dN, double* value, double* slope)
+  const double* dN, double* sums)
 {
   const int q = Q >= 0 ? Q : degree;
   Quad point;
   Load(column, point);
-  Quad sum = N[0] * point;
-  Quad derivative = dN[0] * point;
+  Quad value = N[0] * point;
+  Quad slope = dN[0] * point;
   for (int j = 1; j <= q; ++j)
   {
     Load(column + j * stride, point);
-    sum += N[j] * point;
-    if (Derive)
-    {
-      derivative += dN[j] * point;
-    }
+    value += N[j] * point;
+    slope += dN[j] * point;
   }
-  Store(sum, value);
-  if (Derive)
-  {
-    Store(derivative, slope);
-  }
+  Store(value, sums);
+  Store(slope, sums + 4);
 }
 
-/// The outer sum: H and, for normals, Hu and Hv from the inner sums.
-template <int P, bool Derive>
-NURBS_INLINE void SumRow(const double* row, const double* slopes, int degree, const double* N,
-  const double* dN, double* h, double* hu, double* hv)
+/// The outer sum over the inner ones: H and, for normals, Hu and Hv.
+template <int P>
+NURBS_INLINE void SumRow(const double* sums, int degree, const double* N, const double* dN,
+  bool derive, Quad& h, Quad& hu, Quad& hv)
 {
   const int p = P >= 0 ? P : degree;
   Quad value;
   Quad slope;
-  Load(row, value);
-  Quad sum = N[0] * value;
-  Quad sumU = dN[0] * value;
-  Quad sumV = sum;
-  if (Derive)
+  Load(sums, value);
+  h = N[0] * value;
+  if (derive)
   {
-    Load(slopes, slope);
-    sumV = N[0] * slope;
+    Load(sums + 4, slope);
+    hu = dN[0] * value;
+    hv = N[0] * slope;
   }
   for (int i = 1; i <= p; ++i)
   {
-    Load(row + 4 * i, value);
-    sum += N[i] * value;
-    if (Derive)
+    Load(sums + 8 * i, value);
+    h += N[i] * value;
+    if (derive)
     {
-      Load(slopes + 4 * i, slope);
-      sumU += dN[i] * value;
-      sumV += N[i] * slope;
+      Load(sums + 8 * i + 4, slope);
+      hu += dN[i] * value;
+      hv += N[i] * slope;
     }
   }
-  Store(sum, h);
-  if (Derive)
+}
+
+/// From H to the Cartesian points of four parameters, and from Hu, Hv to their normals. `careful`
+/// lanes have to be done again.
+template <bool Derive>
+NURBS_INLINE void Project(const DirectionTables (&dir)[2], bool rational, Quad (&h)[4],
+  Quad (&hu)[4], Quad (&hv)[4], Quad (&normal)[4], QuadMask& careful)
+{
+  Transpose(h);
+  if (rational)
   {
-    Store(sumU, hu);
-    Store(sumV, hv);
+    const Quad inverse = 1.0 / h[3];
+    h[0] *= inverse;
+    h[1] *= inverse;
+    h[2] *= inverse;
+  }
+  if (!Derive)
+  {
+    return;
+  }
+  Transpose(hu);
+  Transpose(hv);
+  if (rational) // w times the derivatives, which the direction does not depend on
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      hu[k] -= hu[3] * h[k];
+      hv[k] -= hv[3] * h[k];
+    }
+  }
+  normal[0] = hu[1] * hv[2] - hu[2] * hv[1];
+  normal[1] = hu[2] * hv[0] - hu[0] * hv[2];
+  normal[2] = hu[0] * hv[1] - hu[1] * hv[0];
+  const Quad su = hu[0] * hu[0] + hu[1] * hu[1] + hu[2] * hu[2];
+  const Quad sv = hv[0] * hv[0] + hv[1] * hv[1] + hv[2] * hv[2];
+  const Quad area = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  const Quad natural = h[3] * h[3]; // 1 if not rational
+  constexpr double sine = SuspiciousFraction * SuspiciousFraction;
+  careful = ~((su > natural * dir[0].Suspicious) & (sv > natural * dir[1].Suspicious) &
+    (area > sine * su * sv));
+  Quad length;
+  for (int k = 0; k < 4; ++k)
+  {
+    length[k] = std::sqrt(area[k]);
+  }
+  const Quad scale = 1.0 / length;
+  for (int k = 0; k < 3; ++k)
+  {
+    normal[k] *= scale;
+  }
+}
+
+/// xyz triples of `count` <= 4 points from their coordinates.
+NURBS_INLINE void StoreTriples(Quad (&xyz)[4], int count, double* to)
+{
+  alignas(32) double lanes[3][4];
+  for (int k = 0; k < 3; ++k)
+  {
+    Store(xyz[k], lanes[k]);
+  }
+  for (int n = 0; n < count; ++n)
+  {
+    to[3 * n] = lanes[0][n];
+    to[3 * n + 1] = lanes[1][n];
+    to[3 * n + 2] = lanes[2][n];
   }
 }
 
@@ -201,53 +340,6 @@ NURBS_INLINE void SumRow(const double* row, const double* slopes, int degree, co
 /// The loops behind the public functions.
 struct EvaluatorKernel
 {
-  /// From H (and Hu, Hv) to the Cartesian point (and normal): the only place that divides.
-  template <bool Derive>
-  static NURBS_INLINE void Project(const SurfaceEvaluator& e, double u, double v, const double* h,
-    double* hu, double* hv, double* point, double* normal)
-  {
-    const SurfaceEvaluator::Tables& tables = *e.Shared;
-    const double inverse = tables.Rational ? 1.0 / h[3] : 1.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      point[k] = h[k] * inverse;
-    }
-    if (!Derive)
-    {
-      return;
-    }
-    if (tables.Rational)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        hu[k] = (hu[k] - hu[3] * point[k]) * inverse;
-        hv[k] = (hv[k] - hv[3] * point[k]) * inverse;
-      }
-    }
-    const double cross[3] = { hu[1] * hv[2] - hu[2] * hv[1], hu[2] * hv[0] - hu[0] * hv[2],
-      hu[0] * hv[1] - hu[1] * hv[0] };
-    const double su = hu[0] * hu[0] + hu[1] * hu[1] + hu[2] * hu[2];
-    const double sv = hv[0] * hv[0] + hv[1] * hv[1] + hv[2] * hv[2];
-    const double area = cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2];
-    constexpr double sine = SuspiciousFraction * SuspiciousFraction;
-    if (su > tables.Suspicious[0] && sv > tables.Suspicious[1] && area > sine * su * sv)
-    {
-      const double scale = 1.0 / std::sqrt(area);
-      for (int k = 0; k < 3; ++k)
-      {
-        normal[k] = cross[k] * scale;
-      }
-      return;
-    }
-    CarefulNormal(e.View, u, v, normal);
-  }
-
-  static void CarefulNormal(const SurfaceView& surface, double u, double v, double* normal)
-  {
-    Eigen::Map<Vec3> n(normal);
-    n = Normal(surface, u, v);
-  }
-
   /// Span and basis functions of direction `dir`, unless t is the last one again.
   template <int P>
   static NURBS_INLINE bool Seek(SurfaceEvaluator& e, int dir, double t)
@@ -256,78 +348,218 @@ struct EvaluatorKernel
     {
       return false;
     }
-    const SurfaceView& view = e.View;
-    const int degree = P >= 0 ? P : view.Degree[dir];
-    const double* knots = view.Knots[dir].data();
-    int span = e.Span[dir];
-    if (!(knots[span] <= t && t < knots[span + 1]))
-    {
-      span = FindSpan(view.Knots[dir], view.Degree[dir], t);
-    }
-    const double* inverse =
-      e.Shared->Inverse[dir].data() + std::int64_t(span) * (degree * (degree + 1) / 2);
-    SpanBasis<P>(knots + span, inverse, degree, t, e.Basis[dir][0], e.Basis[dir][1]);
+    const DirectionTables& tables = e.Shared->Dir[dir];
+    const int p = P >= 0 ? P : tables.Degree;
+    const int span = LookUpSpan(tables, t);
+    const double* inverse = tables.Inverse.data() + std::int64_t(span) * (p * (p + 1) / 2);
+    SpanBasis<P>(tables.Knots + span, inverse, p, t, e.Basis[dir][0], e.Basis[dir][1]);
     e.Last[dir] = t;
     e.Span[dir] = span;
     return true;
   }
 
-  template <int P, int Q, bool Derive>
-  static NURBS_INLINE void Points(
-    SurfaceEvaluator& e, const Vec2* uv, std::int64_t count, double* points, double* normals)
+  /// The inner sums of the p + 1 columns at `start`.
+  template <int Q>
+  static NURBS_INLINE void SumColumns(SurfaceEvaluator& e, int start)
   {
-    const int p = P >= 0 ? P : e.View.Degree[0];
     const int q = Q >= 0 ? Q : e.View.Degree[1];
+    const int p = e.View.Degree[0];
     const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
-    const double* net = e.Shared->Net.data();
-    alignas(32) double h[3][4];
-    for (std::int64_t n = 0; n < count; ++n)
+    const double* column =
+      e.Shared->Net.data() + (e.Span[1] - q) * stride + 4 * std::int64_t(start);
+    for (int i = 0; i <= p; ++i)
     {
-      const double u = uv[n][0];
-      const double v = uv[n][1];
-      const bool newV = Seek<Q>(e, 1, v);
-      Seek<P>(e, 0, u);
-      const int start = e.Span[0] - p;
-      if (newV || start != e.RowStart)
-      {
-        const double* column = net + (e.Span[1] - q) * stride + 4 * std::int64_t(start);
-        for (int i = 0; i <= p; ++i)
-        {
-          SumColumn<Q, true>(
-            column + 4 * i, stride, q, e.Basis[1][0], e.Basis[1][1], e.Row[0][i], e.Row[1][i]);
-        }
-        e.RowStart = start;
-      }
-      SumRow<P, Derive>(
-        e.Row[0][0], e.Row[1][0], p, e.Basis[0][0], e.Basis[0][1], h[0], h[1], h[2]);
-      Project<Derive>(
-        e, u, v, h[0], h[1], h[2], points + 3 * n, Derive ? normals + 3 * n : nullptr);
+      SumColumn<Q>(column + 4 * i, stride, q, e.Basis[1][0], e.Basis[1][1], e.Row + 8 * i);
     }
   }
 
-  template <int P, int Q>
+  /// Everything that depends on v: the inner sums, if v or the span of u have changed.
+  template <int Q>
+  static NURBS_INLINE void StepV(SurfaceEvaluator& e, double v, bool newSpan)
+  {
+    if (Seek<Q>(e, 1, v) || newSpan)
+    {
+      SumColumns<Q>(e, e.RowStart);
+    }
+  }
+
+  /// H, Hu and Hv at one parameter, with Balazs' coherence.
+  template <bool Derive>
+  static NURBS_INLINE void Sum(SurfaceEvaluator& e, const Vec2& uv, Quad& h, Quad& hu, Quad& hv)
+  {
+    const int p = e.View.Degree[0];
+    NURBS_FOR_DEGREE(p, Seek, (e, 0, uv[0]))
+    const int start = e.Span[0] - p;
+    const bool newSpan = start != e.RowStart;
+    e.RowStart = start;
+    NURBS_FOR_DEGREE(e.View.Degree[1], StepV, (e, uv[1], newSpan))
+    NURBS_FOR_DEGREE(p, SumRow, (e.Row, p, e.Basis[0][0], e.Basis[0][1], Derive, h, hu, hv))
+  }
+
+  /// Points and normals of up to four parameters from H, Hu and Hv.
+  template <bool Derive>
+  static NURBS_INLINE void Finish(const SurfaceEvaluator& e, const Vec2* uv, int count,
+    Quad (&h)[4], Quad (&hu)[4], Quad (&hv)[4], double* points, double* normals)
+  {
+    Quad normal[4];
+    QuadMask careful{};
+    Project<Derive>(e.Shared->Dir, e.Shared->Rational, h, hu, hv, normal, careful);
+    StoreTriples(h, count, points);
+    if (Derive)
+    {
+      StoreTriples(normal, count, normals);
+      if (careful[0] | careful[1] | careful[2] | careful[3])
+      {
+        for (int n = 0; n < count; ++n)
+        {
+          if (careful[n])
+          {
+            CarefulNormal(e.View, uv[n], normals + 3 * n);
+          }
+        }
+      }
+    }
+  }
+
+  static void CarefulNormal(const SurfaceView& surface, const Vec2& uv, double* normal)
+  {
+    Eigen::Map<Vec3> n(normal);
+    n = Normal(surface, uv[0], uv[1]);
+  }
+
+  template <bool Derive>
   static NURBS_INLINE void Points(
     SurfaceEvaluator& e, const Vec2* uv, std::int64_t count, double* points, double* normals)
   {
-    if (normals)
+    Quad h[4] = {};
+    Quad hu[4] = {};
+    Quad hv[4] = {};
+    for (std::int64_t n = 0; n < count; n += 4)
     {
-      Points<P, Q, true>(e, uv, count, points, normals);
+      const int some = static_cast<int>(std::min<std::int64_t>(4, count - n));
+      for (int k = 0; k < some; ++k)
+      {
+        Sum<Derive>(e, uv[n + k], h[k], hu[k], hv[k]);
+      }
+      Finish<Derive>(
+        e, uv + n, some, h, hu, hv, points + 3 * n, Derive ? normals + 3 * n : nullptr);
     }
-    else
+  }
+
+  /// What a column of a grid needs of u, and the row of inner sums that all of them share.
+  struct GridPlan
+  {
+    int Width = 0;              ///< Numbers a column in Bases: values, then derivatives.
+    std::vector<int> Starts;    ///< First column of the net, one a u.
+    std::vector<double> Bases;  ///< One u after the other.
+    std::vector<int> Columns;   ///< The columns of the net that some u needs.
+    std::vector<double> Sums;   ///< 8 numbers a column of the net.
+  };
+
+  static GridPlan PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
+  {
+    const int p = e.View.Degree[0];
+    GridPlan plan;
+    plan.Width = 2 * (p + 1);
+    plan.Starts.resize(us.size());
+    plan.Bases.resize(us.size() * plan.Width);
+    plan.Sums.resize(8 * std::size_t(e.View.Count[0]));
+    std::vector<bool> needed(e.View.Count[0], false);
+    for (std::size_t i = 0; i < us.size(); ++i)
     {
-      Points<P, Q, false>(e, uv, count, points, normals);
+      NURBS_FOR_DEGREE(p, Seek, (e, 0, us[i]))
+      plan.Starts[i] = e.Span[0] - p;
+      double* basis = plan.Bases.data() + i * plan.Width;
+      std::copy(e.Basis[0][0], e.Basis[0][0] + p + 1, basis);
+      std::copy(e.Basis[0][1], e.Basis[0][1] + p + 1, basis + p + 1);
+      std::fill_n(needed.begin() + plan.Starts[i], p + 1, true);
+    }
+    for (int i = 0; i < e.View.Count[0]; ++i)
+    {
+      plan.Columns.insert(plan.Columns.end(), needed[i] ? 1 : 0, i);
+    }
+    return plan;
+  }
+
+  /// The inner sums of one row of the grid.
+  template <int Q>
+  static NURBS_INLINE void GridColumns(SurfaceEvaluator& e, double v, GridPlan& plan)
+  {
+    Seek<Q>(e, 1, v);
+    const int q = Q >= 0 ? Q : e.View.Degree[1];
+    const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
+    const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride;
+    for (int i : plan.Columns)
+    {
+      SumColumn<Q>(
+        row + 4 * i, stride, q, e.Basis[1][0], e.Basis[1][1], plan.Sums.data() + 8 * i);
+    }
+  }
+
+  /// One row of the grid from its inner sums.
+  template <int P>
+  static NURBS_INLINE void GridRow(const SurfaceEvaluator& e, ArrayView<double> us, double v,
+    const GridPlan& plan, double* points, double* normals)
+  {
+    const int p = P >= 0 ? P : e.View.Degree[0];
+    Quad h[4] = {};
+    Quad hu[4] = {};
+    Quad hv[4] = {};
+    Vec2 uv[4];
+    for (std::size_t i = 0; i < us.size(); i += 4)
+    {
+      const int some = static_cast<int>(std::min<std::size_t>(4, us.size() - i));
+      for (int k = 0; k < some; ++k)
+      {
+        const double* N = plan.Bases.data() + (i + k) * plan.Width;
+        const double* sums = plan.Sums.data() + 8 * std::int64_t(plan.Starts[i + k]);
+        SumRow<P>(sums, p, N, N + p + 1, normals != nullptr, h[k], hu[k], hv[k]);
+        uv[k] = Vec2(us[i + k], v);
+      }
+      if (normals)
+      {
+        Finish<true>(e, uv, some, h, hu, hv, points + 3 * i, normals + 3 * i);
+      }
+      else
+      {
+        Finish<false>(e, uv, some, h, hu, hv, points + 3 * i, nullptr);
+      }
     }
   }
 
   static void Batch(
     SurfaceEvaluator& e, const Vec2* uv, std::int64_t count, double* points, double* normals);
+  static void Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, double* points,
+    double* normals);
 };
 
 NURBS_MULTIVERSION
 void EvaluatorKernel::Batch(
   SurfaceEvaluator& e, const Vec2* uv, std::int64_t count, double* points, double* normals)
 {
-  Points<-1, -1>(e, uv, count, points, normals);
+  if (normals)
+  {
+    Points<true>(e, uv, count, points, normals);
+  }
+  else
+  {
+    Points<false>(e, uv, count, points, normals);
+  }
+}
+
+NURBS_MULTIVERSION
+void EvaluatorKernel::Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs,
+  double* points, double* normals)
+{
+  GridPlan plan = PlanGrid(e, us);
+  for (std::size_t j = 0; j < vs.size(); ++j)
+  {
+    const std::size_t at = 3 * j * us.size();
+    double* rowNormals = normals ? normals + at : nullptr;
+    NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, vs[j], plan))
+    NURBS_FOR_DEGREE(e.View.Degree[0], GridRow, (e, us, vs[j], plan, points + at, rowNormals))
+  }
+  e.RowStart = -1; // Row does not belong to the last v any more
 }
 
 SurfaceEvaluator::SurfaceEvaluator(const SurfaceView& surface)
@@ -343,9 +575,7 @@ SurfaceEvaluator::SurfaceEvaluator(const SurfaceView& surface)
   tables->Rational = surface.Weights != nullptr;
   for (int dir = 0; dir < 2; ++dir)
   {
-    tables->Inverse[dir] = InverseDifferences(surface.Knots[dir], surface.Degree[dir]);
-    const double fraction = SuspiciousFraction * LongestControlVector(surface, dir);
-    tables->Suspicious[dir] = fraction * fraction;
+    tables->Dir[dir] = MakeDirection(surface, dir);
     this->Last[dir] = std::numeric_limits<double>::quiet_NaN();
     this->Span[dir] = surface.Degree[dir];
   }
@@ -379,17 +609,7 @@ void SurfaceEvaluator::Batch(const Vec2* uv, std::int64_t count, double* points,
 void SurfaceEvaluator::Grid(
   ArrayView<double> us, ArrayView<double> vs, double* points, double* normals)
 {
-  std::vector<Vec2> row(us.size());
-  for (std::size_t j = 0; j < vs.size(); ++j)
-  {
-    for (std::size_t i = 0; i < us.size(); ++i)
-    {
-      row[i] = Vec2(us[i], vs[j]);
-    }
-    const std::size_t at = 3 * j * us.size();
-    this->Batch(row.data(), static_cast<std::int64_t>(us.size()), points + at,
-      normals ? normals + at : nullptr);
-  }
+  EvaluatorKernel::Grid(*this, us, vs, points, normals);
 }
 
 } // namespace nurbs

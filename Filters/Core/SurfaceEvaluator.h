@@ -56,7 +56,7 @@ private:
   double Last[2];
   int Span[2];
   double Basis[2][2][MaxDegree + 1];           ///< Direction; value or derivative; function.
-  alignas(32) double Row[2][MaxDegree + 1][4]; ///< Inner sums over v with its values, derivatives.
+  alignas(32) double Row[8 * (MaxDegree + 1)]; ///< Inner sums over v: value, v derivative a column.
   int RowStart = -1;                           ///< First column of Row; -1: none.
 
   friend struct EvaluatorKernel;
