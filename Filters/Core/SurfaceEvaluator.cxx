@@ -17,26 +17,26 @@
 
 /// Calls a function template with the degree as a constant from 1 to 5 (the compiler unrolls its
 /// loops), or -1 for any other.
-#define NURBS_FOR_DEGREE(degree, function, arguments)                                              \
-  switch (degree)                                                                                  \
-  {                                                                                                \
-    case 1:                                                                                        \
-      function<1> arguments;                                                                       \
-      break;                                                                                       \
-    case 2:                                                                                        \
-      function<2> arguments;                                                                       \
-      break;                                                                                       \
-    case 3:                                                                                        \
-      function<3> arguments;                                                                       \
-      break;                                                                                       \
-    case 4:                                                                                        \
-      function<4> arguments;                                                                       \
-      break;                                                                                       \
-    case 5:                                                                                        \
-      function<5> arguments;                                                                       \
-      break;                                                                                       \
-    default:                                                                                       \
-      function<-1> arguments;                                                                      \
+#define NURBS_FOR_DEGREE(degree, function, arguments) \
+  switch (degree)                                     \
+  {                                                   \
+    case 1:                                           \
+      function<1> arguments;                          \
+      break;                                          \
+    case 2:                                           \
+      function<2> arguments;                          \
+      break;                                          \
+    case 3:                                           \
+      function<3> arguments;                          \
+      break;                                          \
+    case 4:                                           \
+      function<4> arguments;                          \
+      break;                                          \
+    case 5:                                           \
+      function<5> arguments;                          \
+      break;                                          \
+    default:                                          \
+      function<-1> arguments;                         \
   }
 
 namespace nurbs
@@ -449,11 +449,11 @@ struct EvaluatorKernel
   /// What a column of a grid needs of u, and the row of inner sums that all of them share.
   struct GridPlan
   {
-    int Width = 0;              ///< Numbers a column in Bases: values, then derivatives.
-    std::vector<int> Starts;    ///< First column of the net, one a u.
-    std::vector<double> Bases;  ///< One u after the other.
-    std::vector<int> Columns;   ///< The columns of the net that some u needs.
-    std::vector<double> Sums;   ///< 8 numbers a column of the net.
+    int Width = 0;             ///< Numbers a column in Bases: values, then derivatives.
+    std::vector<int> Starts;   ///< First column of the net, one a u.
+    std::vector<double> Bases; ///< One u after the other.
+    std::vector<int> Columns;  ///< The columns of the net that some u needs.
+    std::vector<double> Sums;  ///< 8 numbers a column of the net.
   };
 
   static GridPlan PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
@@ -491,8 +491,7 @@ struct EvaluatorKernel
     const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride;
     for (int i : plan.Columns)
     {
-      SumColumn<Q>(
-        row + 4 * i, stride, q, e.Basis[1][0], e.Basis[1][1], plan.Sums.data() + 8 * i);
+      SumColumn<Q>(row + 4 * i, stride, q, e.Basis[1][0], e.Basis[1][1], plan.Sums.data() + 8 * i);
     }
   }
 
@@ -548,8 +547,8 @@ void EvaluatorKernel::Batch(
 }
 
 NURBS_MULTIVERSION
-void EvaluatorKernel::Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs,
-  double* points, double* normals)
+void EvaluatorKernel::Grid(
+  SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, double* points, double* normals)
 {
   GridPlan plan = PlanGrid(e, us);
   for (std::size_t j = 0; j < vs.size(); ++j)

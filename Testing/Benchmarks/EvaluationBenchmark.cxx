@@ -121,9 +121,9 @@ double FlopsPerPoint(int degree, bool rational)
 struct Workload
 {
   Surface Sheet;
-  std::vector<double> Side;     ///< The grid's parameters, the same for u and v.
-  std::vector<Vec2> Rows;       ///< The grid row by row.
-  std::vector<Vec2> Shuffled;   ///< The same in random order.
+  std::vector<double> Side;   ///< The grid's parameters, the same for u and v.
+  std::vector<Vec2> Rows;     ///< The grid row by row.
+  std::vector<Vec2> Shuffled; ///< The same in random order.
   std::vector<double> Points, Normals;
 };
 
@@ -154,17 +154,14 @@ double TimeNaive(Workload& w)
 {
   const SurfaceView view = w.Sheet.View();
   const std::size_t count = std::min<std::size_t>(w.Shuffled.size(), 50000);
-  const double seconds = BestTime(
-    [&]
+  const double seconds = BestTime([&] {
+    for (std::size_t i = 0; i < count; ++i)
     {
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const SurfaceDerivatives d =
-          EvaluateDerivatives(view, w.Shuffled[i][0], w.Shuffled[i][1], 1);
-        Eigen::Map<Vec3>(w.Points.data() + 3 * i) = d.S;
-        Eigen::Map<Vec3>(w.Normals.data() + 3 * i) = d.Su.cross(d.Sv).normalized();
-      }
-    });
+      const SurfaceDerivatives d = EvaluateDerivatives(view, w.Shuffled[i][0], w.Shuffled[i][1], 1);
+      Eigen::Map<Vec3>(w.Points.data() + 3 * i) = d.S;
+      Eigen::Map<Vec3>(w.Normals.data() + 3 * i) = d.Su.cross(d.Sv).normalized();
+    }
+  });
   return 1e9 * seconds / count;
 }
 
@@ -208,8 +205,9 @@ int main()
   const double bandwidth = WriteBandwidth();
   std::printf("One thread: %.1f Gflop/s without fused operations, %.1f GB/s written\n\n",
     1e-9 * peak, 1e-9 * bandwidth);
-  std::printf("Nanoseconds for a point with normal; how many times faster than naive; batch in random "
-              "order\nagainst the flop limit, grid against the time to write the result.\n\n");
+  std::printf(
+    "Nanoseconds for a point with normal; how many times faster than naive; batch in random "
+    "order\nagainst the flop limit, grid against the time to write the result.\n\n");
   std::printf("%4s %5s %-5s | %7s %7s %7s %7s | %7s %7s %7s | %7s %7s\n", "deg", "spans", "ratnl",
     "naive", "random", "rows", "grid", "random", "rows", "grid", "flops", "writes");
   for (int degree : { 1, 2, 3, 4, 5, 9 })
