@@ -25,8 +25,10 @@ def arguments(description, **extra):
     parser.add_argument("--only", default="", help="names that must contain one of these (a,b,...)")
     parser.add_argument("--limit", type=float, default=300, help="seconds a child process may take")
     for name, (default, text) in extra.items():
-        kind = {"nargs": "?", "const": True} if isinstance(default, bool) else {"type": type(default)}
-        parser.add_argument("--" + name.replace("_", "-"), default=default, help=text, **kind)
+        kind = {"action": "store_true"} if isinstance(default, bool) else {"type": type(default)}
+        if not isinstance(default, bool):
+            kind["default"] = default
+        parser.add_argument("--" + name.replace("_", "-"), help=text, **kind)
     return parser.parse_args()
 
 
