@@ -311,7 +311,7 @@ private:
         const Foot foot = this->Surface.ProjectExhaustively(c.Point, c.Nearest);
         d = std::min(d, this->TrimmedDistance(c.Point, foot));
       }
-      d = std::min(d, this->Trim.BoundaryDistance(c.Point, Infinity));
+      d = std::min(d, this->Trim.BoundaryDistanceExactly(c.Point));
       if (d > confirmed)
       {
         confirmed = d;

@@ -291,13 +291,34 @@ double FaceTrim::BoundaryDistance(const Vec3& p, double bound) const
   {
     return std::numeric_limits<double>::infinity();
   }
-  const auto line = std::size_t(hit.Triangle);
+  return this->RefineFrom(std::size_t(hit.Triangle), hit.Weights[1], p);
+}
+
+double FaceTrim::BoundaryDistanceExactly(const Vec3& p) const
+{
+  double best = this->BoundaryDistance(p, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < this->Lines.size(); ++i)
+  {
+    const std::array<Vec3, 3> corners{ this->LinePoints[2 * i], this->LinePoints[2 * i + 1],
+      this->LinePoints[2 * i] };
+    const double along = NearestWeights(p, corners)[1];
+    const Vec3 nearest = corners[0] + along * (corners[1] - corners[0]);
+    if ((nearest - p).norm() < best + 2.0 * this->Accuracy)
+    {
+      best = std::min(best, this->RefineFrom(i, along, p));
+    }
+  }
+  return best;
+}
+
+double FaceTrim::RefineFrom(std::size_t line, double along, const Vec3& p) const
+{
   const auto& [index, start] = this->LineOrigins[line];
   const Curve& curve = this->Curves[std::size_t(index)];
   const bool sameCurve =
     line + 1 < this->Lines.size() && this->LineOrigins[line + 1].first == index;
   const double end = sameCurve ? this->LineOrigins[line + 1].second : curve.Last;
-  return this->RefineOnCurve(curve, p, start + hit.Weights[1] * (end - start));
+  return this->RefineOnCurve(curve, p, start + along * (end - start));
 }
 
 std::vector<Vec3> FaceTrim::BoundarySamples(double step) const

@@ -32,6 +32,8 @@ public:
 
   /// Distance to the lifted boundary; infinite if it is not below @a bound.
   double BoundaryDistance(const Vec3& p, double bound) const;
+  /// The same, not misled by the polygon where two parts of the boundary are about as near.
+  double BoundaryDistanceExactly(const Vec3& p) const;
 
   double Length() const { return this->TotalLength; }
   /// Points of the lifted boundary, at most @a step apart.
@@ -56,6 +58,7 @@ private:
   void AddWire(const std::vector<Curve>& curves);
   void AddSegment(const Vec2& a, const Vec2& b);
   bool CoversExactly(const Vec2& uv) const;
+  double RefineFrom(std::size_t line, double along, const Vec3& p) const;
   double RefineOnCurve(const Curve& curve, const Vec3& p, double t) const;
 
   const FaceSurface& Surface;

@@ -7,6 +7,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <IGESControl_Reader.hxx>
@@ -155,15 +156,15 @@ double EdgeGap(const EdgeOnFace& use)
     return curve->Value(first3 + s * (last3 - first3)).Transformed(place.Transformation());
   };
   gap = std::max({ gap, PointGap(start, in3d(0.0)), PointGap(end, in3d(1.0)) });
-  const int steps = 64;
+  const int steps = 256 + 8 * Geom2dAdaptor_Curve(pcurve, first2, last2).NbIntervals(GeomAbs_CN);
   const bool same = BRep_Tool::SameParameter(use.Edge);
   for (int i = 0; i <= steps; ++i)
   {
     const gp_Pnt p = lifted(double(i) / steps);
     double d = p.Distance(in3d(double(i) / steps));
-    for (int k = 0; !same && k <= 8 * steps; ++k)
+    for (int k = 0; !same && k <= steps; ++k)
     {
-      d = std::min(d, p.Distance(in3d(double(k) / (8 * steps))));
+      d = std::min(d, p.Distance(in3d(double(k) / steps)));
     }
     gap = std::max(gap, d);
   }
