@@ -12,7 +12,7 @@
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
@@ -96,6 +96,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSource(const Arguments& a)
   {
     vtkNew<vtkNURBSCADReader> reader;
     reader->SetFileName(a.File.c_str());
+    reader->SingleModelOn();
     return reader.Get();
   }
   vtkNew<vtkNURBSShapeSource> source;
@@ -190,9 +191,16 @@ long Segments(vtkPolyData* polylines)
   return polylines->GetLines()->GetNumberOfConnectivityIds() - polylines->GetNumberOfLines();
 }
 
-double Diagonal(vtkUnstructuredGrid* model)
+/// The source's model, whether it comes alone or as the only one of a collection.
+vtkUnstructuredGrid* ModelOf(vtkAlgorithm* source)
 {
-  return model->GetLength();
+  vtkDataObject* output = source->GetOutputDataObject(0);
+  if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(output))
+  {
+    output =
+      collection->GetNumberOfPartitionedDataSets() > 0 ? collection->GetPartition(0, 0) : nullptr;
+  }
+  return vtkUnstructuredGrid::SafeDownCast(output);
 }
 
 nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat)
@@ -224,7 +232,7 @@ nlohmann::json Run(const Arguments& a)
     source->Modified();
     source->Update();
   });
-  auto* model = vtkUnstructuredGrid::SafeDownCast(source->GetOutputDataObject(0));
+  vtkUnstructuredGrid* model = ModelOf(source);
   if (!model || model->GetNumberOfCells() == 0)
   {
     throw std::runtime_error("no faces were read");

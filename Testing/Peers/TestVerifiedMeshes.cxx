@@ -9,7 +9,9 @@
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSTessellator.h"
 
+#include <vtkDataObject.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
 
 #include <gtest/gtest.h>
@@ -47,15 +49,17 @@ TEST_P(VerifiedMesh, MeetsTheToleranceOnEveryFace)
   options.Tolerance = 1e-3 * shape.Diagonal;
   vtkNew<vtkNURBSCADReader> reader;
   reader->SetFileName(file.c_str());
+  reader->SingleModelOn();
+  reader->Update();
   vtkNew<vtkNURBSTessellator> tessellator;
-  tessellator->SetInputConnection(reader->GetOutputPort());
+  tessellator->SetInputData(reader->GetOutput()->GetPartition(0, 0));
   tessellator->SetToleranceModeToAbsolute();
   tessellator->SetAbsoluteTolerance(options.Tolerance);
   const bool guaranteed = std::string(this->GetParam().Error) == "guaranteed";
   guaranteed ? tessellator->SetErrorModeToGuaranteed() : tessellator->SetErrorModeToEstimated();
   tessellator->Update();
-  const std::vector<FaceMesh> meshes =
-    SplitIntoFaces(tessellator->GetOutput(), int(shape.Faces.size()));
+  const std::vector<FaceMesh> meshes = SplitIntoFaces(
+    vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(0)), int(shape.Faces.size()));
   const std::vector<FaceGap> gaps = MeasureGaps(shape);
   for (std::size_t f = 0; f < meshes.size(); ++f)
   {
