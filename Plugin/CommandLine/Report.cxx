@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report.h"
+
+#include "Failure.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace nurbs
+{
+
+void WriteReport(const Report& report, const std::string& path)
+{
+  nlohmann::ordered_json json;
+  json["file"] = report.File;
+  json["unit"] = report.Unit;
+  json["faces"] = report.Faces;
+  json["edges"] = report.Edges;
+  json["unconverted_faces"] = report.Unconverted;
+  json["seconds"]["read"] = report.ReadSeconds;
+  if (report.Tessellated)
+  {
+    json["triangles"] = report.Triangles;
+    json["points"] = report.Points;
+    json["tolerance"] = report.Tolerance;
+    json["certified_error"] = report.CertifiedError;
+    json["guaranteed"] = report.Guaranteed;
+    json["open_edges"] = report.OpenEdges;
+    json["failed_faces"] = report.FailedFaces;
+    json["repaired_faces"] = report.RepairedFaces;
+    json["capped_faces"] = report.CappedFaces;
+    json["seconds"]["tessellate"] = report.TessellateSeconds;
+    json["seconds"]["write"] = report.WriteSeconds;
+  }
+  json["problems"] = report.Problems;
+  std::ofstream file(path);
+  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.close();
+  if (!file)
+  {
+    throw Failure("cannot write the report " + path);
+  }
+}
+
+} // namespace nurbs

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCommands.h"
+
+#include "Failure.h"
+#include "ProgressBar.h"
+#include "Report.h"
+#include "vtkDescribeModel.h"
+#include "vtkMessages.h"
+#include "vtkReadModel.h"
+#include "vtkRenderPicture.h"
+#include "vtkTessellateModel.h"
+#include "vtkWriteMesh.h"
+
+#include "vtkCamera.h"
+#include "vtkDataObject.h"
+#include "vtkLogger.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+
+#include <chrono>
+#include <iostream>
+
+namespace nurbs
+{
+namespace
+{
+
+constexpr size_t MostWarnings = 10;
+
+class Stopwatch
+{
+public:
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Started).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Started = std::chrono::steady_clock::now();
+};
+
+// What the commands share: the bar, the messages, the figures.
+class Session
+{
+public:
+  explicit Session(const Arguments& arguments)
+    : Options(arguments)
+    , Bar(!arguments.Quiet)
+  {
+    vtkOutputWindow::SetInstance(this->Messages);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // else all is said twice
+    if (arguments.Threads > 0)
+    {
+      vtkSMPTools::Initialize(arguments.Threads);
+    }
+    if (!arguments.Report.empty())
+    {
+      CheckWritable(arguments.Report);
+    }
+    this->Figures.File = arguments.Model;
+    this->Figures.Guaranteed = arguments.Guaranteed;
+  }
+
+  ~Session()
+  {
+    this->PrintWarnings();
+    vtkOutputWindow::SetInstance(nullptr);
+  }
+
+  ProgressFunction Phase(double begin, double end)
+  {
+    this->Bar.Phase(begin, end);
+    return [this](double fraction) { this->Bar.Set(fraction); };
+  }
+
+  vtkSmartPointer<vtkDataObject> Read(bool single, double end)
+  {
+    const Stopwatch watch;
+    auto model = ReadModel(this->Options, single, this->Phase(0.0, end));
+    this->Figures.ReadSeconds = watch.Seconds();
+    return model;
+  }
+
+  void Warn(const std::vector<std::string>& warnings)
+  {
+    for (const std::string& warning : warnings)
+    {
+      this->Messages->DisplayWarningText(warning.c_str());
+    }
+  }
+
+  // Report, warnings, and what is to be returned.
+  int Finish()
+  {
+    if (!this->Options.Report.empty())
+    {
+      WriteReport(this->Figures, this->Options.Report);
+    }
+    this->PrintWarnings();
+    const Report& figures = this->Figures;
+    const bool complaint =
+      figures.Unconverted + figures.FailedFaces + figures.CappedFaces + figures.OpenEdges > 0;
+    return this->Options.Strict && complaint ? ExitStrict : ExitSuccess;
+  }
+
+  const Arguments& Options;
+  Report Figures;
+
+private:
+  ProgressBar Bar;
+  vtkNew<vtkMessages> Messages;
+
+  void PrintWarnings()
+  {
+    this->Bar.Clear();
+    const std::vector<std::string> warnings = this->Messages->TakeWarnings();
+    for (size_t i = 0; i < std::min(warnings.size(), MostWarnings); ++i)
+    {
+      std::cerr << "vtknurbs: warning: " << warnings[i] << "\n";
+    }
+    if (warnings.size() > MostWarnings)
+    {
+      std::cerr << "vtknurbs: warning: and " << warnings.size() - MostWarnings << " more\n";
+    }
+  }
+};
+
+int Info(const Arguments& arguments)
+{
+  Session session(arguments);
+  const auto model = session.Read(false, 1.0);
+  Count(model, session.Figures);
+  const int exitCode = session.Finish();
+  if (!arguments.Quiet)
+  {
+    Describe(model, session.Figures, arguments.WholeTree, std::cout);
+  }
+  return exitCode;
+}
+
+void PrintSummary(const Session& session)
+{
+  const Report& figures = session.Figures;
+  if (session.Options.Quiet)
+  {
+    return;
+  }
+  std::cout << session.Options.Output << ": " << figures.Faces << " faces, " << figures.Triangles
+            << " triangles, " << (figures.Guaranteed ? "error at most " : "estimated error ")
+            << figures.CertifiedError << (figures.Unit.empty() ? "" : " ") << figures.Unit << " of "
+            << figures.Tolerance << " allowed";
+  if (figures.OpenEdges > 0)
+  {
+    std::cout << ", " << figures.OpenEdges << " open edges";
+  }
+  if (figures.FailedFaces > 0)
+  {
+    std::cout << ", " << figures.FailedFaces << " faces failed";
+  }
+  std::cout << " (" << figures.ReadSeconds << " s to read, " << figures.TessellateSeconds
+            << " s to tessellate, " << figures.WriteSeconds << " s to "
+            << (session.Options.What == Command::Render ? "draw" : "write") << ")\n";
+}
+
+int TessellateCommand(const Arguments& arguments)
+{
+  CheckMeshPath(arguments.Output);
+  Session session(arguments);
+  const auto model = session.Read(true, 0.6);
+  Count(model, session.Figures);
+  Triangles triangles =
+    Tessellate(model, arguments, nullptr, session.Phase(0.6, 0.9), session.Figures);
+  session.Phase(0.9, 1.0);
+  const Stopwatch watch;
+  session.Warn(
+    WriteMesh(triangles.Mesh, arguments.Output, session.Figures.Unit, session.Figures.Tolerance));
+  session.Figures.WriteSeconds = watch.Seconds();
+  const int exitCode = session.Finish();
+  PrintSummary(session);
+  return exitCode;
+}
+
+int RenderCommand(const Arguments& arguments)
+{
+  if (Ending(arguments.Output) != ".png")
+  {
+    throw Failure("cannot write " + arguments.Output + ": pictures are .png");
+  }
+  CheckWritable(arguments.Output);
+  Session session(arguments);
+  const auto model = session.Read(true, 0.6);
+  Count(model, session.Figures);
+  const auto camera = FitCamera(PointsOf(model), arguments.View, arguments.Size);
+  Triangles triangles =
+    Tessellate(model, arguments, camera, session.Phase(0.6, 0.9), session.Figures);
+  session.Phase(0.9, 1.0);
+  const Stopwatch watch;
+  Picture picture;
+  picture.Size = arguments.Size;
+  picture.View = arguments.View;
+  picture.Transparent = arguments.Transparent;
+  picture.Device = arguments.Device;
+  RenderPicture(
+    triangles.Mesh, arguments.Edges ? triangles.Edges.Get() : nullptr, picture, arguments.Output);
+  session.Figures.WriteSeconds = watch.Seconds();
+  const int exitCode = session.Finish();
+  PrintSummary(session);
+  return exitCode;
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+int Execute(const Arguments& arguments)
+{
+  switch (arguments.What)
+  {
+    case Command::Info:
+      return Info(arguments);
+    case Command::Tessellate:
+      return TessellateCommand(arguments);
+    case Command::Render:
+      break;
+  }
+  return RenderCommand(arguments);
+}
+
+} // namespace nurbs

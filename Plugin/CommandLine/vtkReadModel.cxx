@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkReadModel.h"
+
+#include "Arguments.h"
+#include "Failure.h"
+#include "vtkMessages.h"
+#include "vtkWriteMesh.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkNURBSCADReader.h"
+#include "vtkNURBSModel.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLPartitionedDataSetCollectionReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <filesystem>
+
+namespace nurbs
+{
+namespace
+{
+
+template <typename Reader>
+vtkSmartPointer<vtkDataObject> Read(
+  Reader* reader, const std::string& path, const ProgressFunction& progress)
+{
+  reader->SetFileName(path.c_str());
+  Run(reader, progress);
+  return reader->GetOutputDataObject(0);
+}
+
+vtkSmartPointer<vtkDataObject> ReadCAD(
+  const Arguments& arguments, bool single, const ProgressFunction& progress)
+{
+  vtkNew<vtkNURBSCADReader> reader;
+  reader->SetSingleModel(single);
+  switch (arguments.Unit)
+  {
+    case LengthUnit::Millimetres:
+      reader->SetLengthUnitToMillimetres();
+      break;
+    case LengthUnit::Metres:
+      reader->SetLengthUnitToMetres();
+      break;
+    case LengthUnit::File:
+      reader->SetLengthUnitToFileUnit();
+      break;
+  }
+  return Read(reader.Get(), arguments.Model, progress);
+}
+
+template <typename Data>
+std::vector<Data*> LeavesOf(vtkDataObject* data)
+{
+  std::vector<Data*> leaves;
+  if (auto* single = Data::SafeDownCast(data))
+  {
+    leaves.push_back(single);
+  }
+  else if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkCompositeDataIterator> each;
+    each.TakeReference(composite->NewIterator());
+    for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
+    {
+      if (auto* leaf = Data::SafeDownCast(each->GetCurrentDataObject()))
+      {
+        leaves.push_back(leaf);
+      }
+    }
+  }
+  return leaves;
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+void Run(vtkAlgorithm* algorithm, const ProgressFunction& progress)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(const_cast<ProgressFunction*>(&progress));
+  command->SetCallback([](vtkObject*, unsigned long, void* client, void* amount) {
+    (*static_cast<const ProgressFunction*>(client))(*static_cast<const double*>(amount));
+  });
+  const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, command);
+  algorithm->Update();
+  algorithm->RemoveObserver(tag);
+  auto* messages = vtkMessages::SafeDownCast(vtkOutputWindow::GetInstance());
+  const std::string error = messages ? messages->GetFirstError() : std::string();
+  if (!error.empty())
+  {
+    throw Failure(error);
+  }
+}
+
+//--------------------------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> ReadModel(
+  const Arguments& arguments, bool single, const ProgressFunction& progress)
+{
+  const std::string& path = arguments.Model;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+  {
+    throw Failure("cannot read " + path + ": there is no such file");
+  }
+  if (std::filesystem::is_directory(path, ignored))
+  {
+    throw Failure("cannot read " + path + ": it is a folder");
+  }
+  const std::string ending = Ending(path);
+  vtkSmartPointer<vtkDataObject> model;
+  if (ending == ".vtu")
+  {
+    model = Read(vtkNew<vtkXMLUnstructuredGridReader>().Get(), path, progress);
+  }
+  else if (ending == ".vtpc")
+  {
+    model = Read(vtkNew<vtkXMLPartitionedDataSetCollectionReader>().Get(), path, progress);
+  }
+  else
+  {
+    model = ReadCAD(arguments, single, progress);
+  }
+  vtkIdType faces = 0;
+  for (vtkUnstructuredGrid* part : PartsOf(model))
+  {
+    if (part->GetNumberOfCells() > 0 && !vtkNURBSModel::IsModel(part))
+    {
+      throw Failure("cannot use " + path + ": it is VTK data, but not a model of NURBS surfaces");
+    }
+    faces += part->GetNumberOfCells();
+  }
+  if (faces == 0)
+  {
+    throw Failure("cannot use " + path + ": there is no face in it");
+  }
+  return model;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<vtkUnstructuredGrid*> PartsOf(vtkDataObject* model)
+{
+  return LeavesOf<vtkUnstructuredGrid>(model);
+}
+
+//--------------------------------------------------------------------------------------------------
+vtkSmartPointer<vtkPoints> PointsOf(vtkDataObject* model)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  for (vtkUnstructuredGrid* part : PartsOf(model))
+  {
+    points->InsertPoints(
+      points->GetNumberOfPoints(), part->GetNumberOfPoints(), 0, part->GetPoints());
+  }
+  return points;
+}
+
+//--------------------------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> Joined(vtkDataObject* output)
+{
+  const std::vector<vtkPolyData*> leaves = LeavesOf<vtkPolyData>(output);
+  if (leaves.size() == 1)
+  {
+    return leaves[0];
+  }
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkPolyData* leaf : leaves)
+  {
+    append->AddInputData(leaf);
+  }
+  if (leaves.empty())
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  append->Update();
+  return append->GetOutput();
+}
+
+} // namespace nurbs
