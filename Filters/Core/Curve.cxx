@@ -132,18 +132,16 @@ void EvaluateDerivatives(const CurveView<D>& curve, double t, int order, Vec<D>*
 template <int D>
 std::vector<BezierCurve<D>> ToBezier(const CurveView<D>& curve)
 {
-  std::vector<double> breaks;
-  const std::vector<double> rows = BezierRows(ToRows<D>(curve), breaks);
-  const int width = (curve.Degree + 1) * (D + 1);
-  std::vector<BezierCurve<D>> pieces(breaks.size() - 1);
+  const BezierForm form = ToBezierForm(ToRows<D>(curve));
+  std::vector<BezierCurve<D>> pieces(form.First.size());
   for (std::size_t k = 0; k < pieces.size(); ++k)
   {
-    pieces[k].T0 = breaks[k];
-    pieces[k].T1 = breaks[k + 1];
+    pieces[k].T0 = form.Breaks[k];
+    pieces[k].T1 = form.Breaks[k + 1];
     pieces[k].Points.resize(curve.Degree + 1);
     for (int i = 0; i <= curve.Degree; ++i)
     {
-      pieces[k].Points[i] = Eigen::Map<const Vec<D + 1>>(rows.data() + k * width + i * (D + 1));
+      pieces[k].Points[i] = Eigen::Map<const Vec<D + 1>>(form.Refined.Row(form.First[k] + i));
     }
   }
   return pieces;
@@ -191,7 +189,6 @@ Curve<D> Restrict(const CurveView<D>& curve, double t0, double t1)
   template std::pair<Curve<D>, Curve<D>> Split<D>(const CurveView<D>&, double);      \
   template Curve<D> Restrict<D>(const CurveView<D>&, double, double);
 
-NURBS_INSTANTIATE_CURVE(1)
 NURBS_INSTANTIATE_CURVE(2)
 NURBS_INSTANTIATE_CURVE(3)
 

@@ -331,33 +331,26 @@ bool ReduceRowDegree(const RowSpline& spline, RowSpline& reduced, std::vector<do
   return true;
 }
 
-std::vector<double> BezierRows(const RowSpline& spline, std::vector<double>& breaks)
+BezierForm ToBezierForm(const RowSpline& spline)
 {
   const int p = spline.Degree;
-  const Interval domain = Domain(spline.Knots, p);
-  breaks.clear();
+  BezierForm form;
   std::vector<double> add;
   for (const Knot& knot : DistinctKnots(spline.Knots, p))
   {
-    breaks.push_back(knot.Value);
+    form.Breaks.push_back(knot.Value);
     add.insert(add.end(), std::max(0, p - knot.Multiplicity), knot.Value);
   }
-  RowSpline refined = spline;
-  InsertKnots(refined, add);
-  std::vector<double> rows;
-  rows.reserve((breaks.size() - 1) * (p + 1) * spline.Width);
-  auto knot = refined.Knots.begin();
-  for (double t : breaks)
+  form.Refined = spline;
+  InsertKnots(form.Refined, add);
+  const std::vector<double>& knots = form.Refined.Knots;
+  auto above = knots.begin();
+  for (std::size_t k = 0; k + 1 < form.Breaks.size(); ++k)
   {
-    if (t == domain.Max)
-    {
-      break;
-    }
-    knot = std::upper_bound(knot, refined.Knots.end(), t);
-    const std::int64_t span = knot - refined.Knots.begin() - 1;
-    rows.insert(rows.end(), refined.Row(span - p), refined.Row(span + 1));
+    above = std::upper_bound(above, knots.end(), form.Breaks[k]);
+    form.First.push_back(above - knots.begin() - 1 - p);
   }
-  return rows;
+  return form;
 }
 
 } // namespace nurbs

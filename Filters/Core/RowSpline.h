@@ -50,8 +50,16 @@ void ElevateRows(RowSpline& spline);
 /// row a control point of the clamped spline) whether the result is good enough.
 bool ReduceRowDegree(const RowSpline& spline, RowSpline& reduced, std::vector<double>& residual);
 
-/// Bezier coefficients, degree + 1 rows for each non-empty span of the domain, in order; `breaks`
-/// receives the distinct knots, one more than there are spans.
-std::vector<double> BezierRows(const RowSpline& spline, std::vector<double>& breaks);
+/// A spline refined until every span of the domain that is not empty has its Bezier coefficients as
+/// degree + 1 consecutive rows.
+struct BezierForm
+{
+  RowSpline Refined;
+  std::vector<double> Breaks;      ///< The distinct knots of the domain, one more than spans.
+  std::vector<std::int64_t> First; ///< The span's first row; neighbours may share a row.
+};
+
+/// The Bezier form of all spans, by knot insertion.
+BezierForm ToBezierForm(const RowSpline& spline);
 
 } // namespace nurbs

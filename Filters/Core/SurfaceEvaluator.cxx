@@ -526,11 +526,24 @@ struct EvaluatorKernel
     }
   }
 
+  static void First(SurfaceEvaluator& e, const Vec2& uv, Vec4 (&h)[3][3]);
   static void Batch(
     SurfaceEvaluator& e, const Vec2* uv, std::int64_t count, double* points, double* normals);
   static void Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, double* points,
     double* normals);
 };
+
+NURBS_MULTIVERSION
+void EvaluatorKernel::First(SurfaceEvaluator& e, const Vec2& uv, Vec4 (&h)[3][3])
+{
+  Quad sum;
+  Quad sumU;
+  Quad sumV;
+  Sum<true>(e, uv, sum, sumU, sumV);
+  Store(sum, h[0][0].data());
+  Store(sumU, h[1][0].data());
+  Store(sumV, h[0][1].data());
+}
 
 NURBS_MULTIVERSION
 void EvaluatorKernel::Batch(
@@ -591,7 +604,13 @@ Vec3 SurfaceEvaluator::Point(double u, double v)
 
 SurfaceDerivatives SurfaceEvaluator::Derivatives(double u, double v, int order)
 {
-  return EvaluateDerivatives(this->View, u, v, order);
+  if (order != 1)
+  {
+    return EvaluateDerivatives(this->View, u, v, order);
+  }
+  Vec4 h[3][3];
+  EvaluatorKernel::First(*this, Vec2(u, v), h);
+  return ProjectDerivatives(h, 1);
 }
 
 void SurfaceEvaluator::PointAndNormal(double u, double v, Vec3& point, Vec3& normal)

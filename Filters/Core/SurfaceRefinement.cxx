@@ -163,46 +163,58 @@ Surface Restrict(const SurfaceView& surface, Interval u, Interval v)
   return FromRows(view, 1, ClampRows(ToRows(view, 1), v.Min, v.Max));
 }
 
+namespace
+{
+
+/// The surface along v, its lines across already in the Bezier form of u: all spans' coefficients
+/// one after the other.
+RowSpline AcrossBezierForm(const SurfaceView& surface, const BezierForm& u)
+{
+  const int p = surface.Degree[0];
+  const int size = surface.Weights ? 4 : 3;
+  RowSpline spline;
+  spline.Degree = surface.Degree[1];
+  spline.Width = static_cast<int>(u.First.size()) * (p + 1) * size;
+  spline.Knots.assign(surface.Knots[1].begin(), surface.Knots[1].end());
+  spline.Rows.resize(std::size_t(surface.Count[1]) * spline.Width);
+  double* to = spline.Rows.data();
+  for (int j = 0; j < surface.Count[1]; ++j)
+  {
+    for (std::int64_t first : u.First)
+    {
+      for (int i = 0; i <= p; ++i, to += size)
+      {
+        const double* from = u.Refined.Row(first + i) + j * size;
+        std::copy(from, from + size, to);
+      }
+    }
+  }
+  return spline;
+}
+
+} // namespace
+
 std::vector<BezierPatch> ToBezier(const SurfaceView& surface)
 {
   const int p = surface.Degree[0];
   const int q = surface.Degree[1];
   const int size = surface.Weights ? 4 : 3;
-  // First along u; then the pieces' rows, transposed, are the coefficients along v.
-  std::vector<double> breaks[2];
-  const std::vector<double> columns = BezierRows(ToRows(surface, 0), breaks[0]);
-  const int spansU = static_cast<int>(breaks[0].size()) - 1;
-  const int across = spansU * (p + 1);
-  RowSpline spline;
-  spline.Degree = q;
-  spline.Width = across * size;
-  spline.Knots.assign(surface.Knots[1].begin(), surface.Knots[1].end());
-  spline.Rows.resize(columns.size());
-  for (int i = 0; i < across; ++i)
+  const BezierForm u = ToBezierForm(ToRows(surface, 0));
+  const BezierForm v = ToBezierForm(AcrossBezierForm(surface, u));
+  std::vector<BezierPatch> patches(u.First.size() * v.First.size());
+  for (std::size_t b = 0; b < v.First.size(); ++b)
   {
-    for (int j = 0; j < surface.Count[1]; ++j)
+    for (std::size_t a = 0; a < u.First.size(); ++a)
     {
-      const double* from = columns.data() + (std::size_t(i) * surface.Count[1] + j) * size;
-      std::copy(from, from + size, spline.Row(j) + i * size);
-    }
-  }
-  const std::vector<double> net = BezierRows(spline, breaks[1]);
-  const int spansV = static_cast<int>(breaks[1].size()) - 1;
-  std::vector<BezierPatch> patches(std::size_t(spansU) * spansV);
-  for (int b = 0; b < spansV; ++b)
-  {
-    for (int a = 0; a < spansU; ++a)
-    {
-      BezierPatch& patch = patches[a + std::size_t(b) * spansU];
+      BezierPatch& patch = patches[a + b * u.First.size()];
       patch.Degree[0] = p;
       patch.Degree[1] = q;
-      patch.U = { breaks[0][a], breaks[0][a + 1] };
-      patch.V = { breaks[1][b], breaks[1][b + 1] };
+      patch.U = { u.Breaks[a], u.Breaks[a + 1] };
+      patch.V = { v.Breaks[b], v.Breaks[b + 1] };
       patch.Points.resize((p + 1) * (q + 1), Vec4(0.0, 0.0, 0.0, 1.0));
       for (int j = 0; j <= q; ++j)
       {
-        const double* from =
-          net.data() + std::size_t(b * (q + 1) + j) * spline.Width + a * (p + 1) * size;
+        const double* from = v.Refined.Row(v.First[b] + j) + a * (p + 1) * size;
         for (int i = 0; i <= p; ++i, from += size)
         {
           std::copy(from, from + size, patch.Points[i + j * (p + 1)].data());
