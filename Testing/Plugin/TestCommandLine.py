@@ -353,6 +353,16 @@ class Render(Folder):
         self.assertFalse(path.exists())
 
 
+class Guide(Folder):
+    def test_commands_of_the_guide_work(self):
+        shutil.copy(SCREW, self.folder)
+        commands = re.findall(r"^    vtknurbs (.*)$", GUIDE.read_text("utf-8"), re.MULTILINE)
+        self.assertGreaterEqual(len(commands), 8)
+        for command in commands:
+            with self.subTest(command):
+                tool(*command.split(), cwd=self.folder)
+
+
 class BadInput(Folder):
     def test_usage(self):
         mesh = self.folder / "m.stl"
@@ -426,6 +436,7 @@ class BadInput(Folder):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("tool", type=Path)
+    parser.add_argument("guide", type=Path)
     known, rest = parser.parse_known_args()
-    TOOL = str(known.tool)
+    TOOL, GUIDE = str(known.tool.resolve()), known.guide
     unittest.main(argv=sys.argv[:1] + rest)
