@@ -87,7 +87,13 @@ public:
     this->CollectLoops();
     this->ConvertTrims();
     this->ConvertSurface();
-    this->ClampTrims();
+    for (Part::Loop& loop : this->Result.Face.Loops)
+    {
+      for (Part::TrimCurve& trim : loop)
+      {
+        this->ClampTrim(trim);
+      }
+    }
     this->MeasureSurface();
     this->MeasureEdges();
   }
@@ -121,8 +127,9 @@ private:
   std::vector<double> BreaksOfTrim(const Use& use, const ParameterMap& map, Interval range) const;
   Interval RangeOf(int dir) const;
   void ConvertSurface();
-  void ClampTrims();
+  void ClampTrim(Part::TrimCurve& trim) const;
   void MeasureSurface();
+  double Deviation(const Part::TrimCurve& trim) const;
   void MeasureEdges();
 
   TopoDS_Face Shape;
@@ -455,33 +462,38 @@ void Converter::ConvertSurface()
   }
 }
 
-/// Rounding and fits may leave control points of trim curves a hair outside the domain.
-void Converter::ClampTrims()
+/// Rounding, fits and sloppy files leave control points of trim curves a little outside the domain,
+/// where splines may run wild. They are moved inside; by more than rounding only if the curve comes
+/// no farther from its edge.
+void Converter::ClampTrim(Part::TrimCurve& trim) const
 {
+  constexpr double Rounding = 1e-9;
+  constexpr double Sloppy = 1e-2;
   const SurfaceView surface = this->Result.Face.Geometry.View();
-  for (Part::Loop& loop : this->Result.Face.Loops)
+  Part::TrimCurve inside = trim;
+  double moved = 0.0;
+  for (Vec2& p : inside.Geometry.Points)
   {
-    for (Part::TrimCurve& trim : loop)
+    for (int dir = 0; dir < 2; ++dir)
     {
-      bool moved = false;
-      for (Vec2& p : trim.Geometry.Points)
-      {
-        for (int dir = 0; dir < 2; ++dir)
-        {
-          const Interval domain = surface.Domain(dir);
-          const double inside = domain.Clamp(p[dir]);
-          if (inside != p[dir] && std::abs(inside - p[dir]) <= 1e-6 * domain.Length())
-          {
-            p[dir] = inside;
-            moved = true;
-          }
-        }
-      }
-      if (moved)
-      {
-        trim.Geometry.Pack();
-      }
+      const Interval domain = surface.Domain(dir);
+      const double clamped = domain.Clamp(p[dir]);
+      moved = std::max(moved, std::abs(clamped - p[dir]) / domain.Length());
+      p[dir] = clamped;
     }
+  }
+  if (moved == 0.0 || moved > Sloppy)
+  {
+    return;
+  }
+  inside.Geometry.Pack();
+  const bool hasCurve =
+    (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)].Kind == Part::EdgeKind::Curve;
+  if (moved <= Rounding ||
+    (hasCurve &&
+      this->Deviation(inside) <= std::max(this->Deviation(trim), 1e-9 * this->Table.Size)))
+  {
+    trim = std::move(inside);
   }
 }
 
@@ -508,7 +520,22 @@ void Converter::MeasureSurface()
   }
 }
 
-/// Measures the distance between lifted trim curves and edges, and where the ends are.
+/// Largest distance of the lifted trim curve from its edge.
+double Converter::Deviation(const Part::TrimCurve& trim) const
+{
+  const Part::Edge& edge = (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)];
+  const SurfaceView surface = this->Result.Face.Geometry.View();
+  double distance = 0.0;
+  for (const double t : SampleParameters(trim.Geometry.View(), edge.Geometry.View()))
+  {
+    const Vec2 p = Evaluate(trim.Geometry.View(), t);
+    const Vec3 onEdge = Evaluate(edge.Geometry.View(), t);
+    distance = std::max(distance, (Evaluate(surface, p[0], p[1]) - onEdge).norm());
+  }
+  return distance;
+}
+
+/// Tells how far the edges are and where the face sees the vertices.
 void Converter::MeasureEdges()
 {
   const SurfaceView surface = this->Result.Face.Geometry.View();
@@ -517,25 +544,16 @@ void Converter::MeasureEdges()
     for (const Part::TrimCurve& trim : loop)
     {
       const Part::Edge& edge = (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)];
-      const CurveView<2> curve = trim.Geometry.View();
-      auto lift = [&](double t) {
-        const Vec2 p = Evaluate(curve, t);
-        return Evaluate(surface, p[0], p[1]);
-      };
-      const Interval domain = curve.Domain();
-      const std::int64_t* vertex = edge.Vertex;
-      this->Result.Ends.push_back({ vertex[0], lift(domain.Min) });
-      this->Result.Ends.push_back({ vertex[1], lift(domain.Max) });
-      if (edge.Kind != Part::EdgeKind::Curve)
+      const Interval domain = trim.Geometry.View().Domain();
+      for (int k = 0; k < 2; ++k)
       {
-        continue;
+        const Vec2 p = Evaluate(trim.Geometry.View(), k == 0 ? domain.Min : domain.Max);
+        this->Result.Ends.push_back({ edge.Vertex[k], Evaluate(surface, p[0], p[1]) });
       }
-      double distance = 0.0;
-      for (const double t : SampleParameters(curve, edge.Geometry.View()))
+      if (edge.Kind == Part::EdgeKind::Curve)
       {
-        distance = std::max(distance, (lift(t) - Evaluate(edge.Geometry.View(), t)).norm());
+        this->Result.Deviations.push_back({ trim.Edge, this->Deviation(trim) });
       }
-      this->Result.Deviations.push_back({ trim.Edge, distance });
     }
   }
 }
