@@ -129,6 +129,7 @@ private:
   void ConvertSurface();
   void ClampTrim(Part::TrimCurve& trim) const;
   void MeasureSurface();
+  Vec3 Lift(const CurveView<2>& trim, double t) const;
   double Deviation(const Part::TrimCurve& trim) const;
   void MeasureEdges();
 
@@ -464,11 +465,11 @@ void Converter::ConvertSurface()
 
 /// Rounding, fits and sloppy files leave control points of trim curves a little outside the domain,
 /// where splines may run wild. They are moved inside; by more than rounding only if the curve comes
-/// no farther from its edge.
+/// no farther from its edge than it is, or than the edge's tolerance.
 void Converter::ClampTrim(Part::TrimCurve& trim) const
 {
   constexpr double Rounding = 1e-9;
-  constexpr double Sloppy = 1e-2;
+  constexpr double Sloppy = 1e-3;
   const SurfaceView surface = this->Result.Face.Geometry.View();
   Part::TrimCurve inside = trim;
   double moved = 0.0;
@@ -487,14 +488,17 @@ void Converter::ClampTrim(Part::TrimCurve& trim) const
     return;
   }
   inside.Geometry.Pack();
-  const bool hasCurve =
-    (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)].Kind == Part::EdgeKind::Curve;
-  if (moved <= Rounding ||
-    (hasCurve &&
-      this->Deviation(inside) <= std::max(this->Deviation(trim), 1e-9 * this->Table.Size)))
+  if (moved > Rounding)
   {
-    trim = std::move(inside);
+    const std::size_t edge = static_cast<std::size_t>(trim.Edge);
+    const double enough = std::max(this->Table.Sources[edge].Tolerance, 1e-9 * this->Table.Size);
+    if ((*this->Table.Edges)[edge].Kind == Part::EdgeKind::Curve &&
+      this->Deviation(inside) > std::max(1.01 * this->Deviation(trim), enough))
+    {
+      return;
+    }
   }
+  trim = std::move(inside);
 }
 
 /// Compares with the original surface at a grid of parameters.
@@ -520,17 +524,23 @@ void Converter::MeasureSurface()
   }
 }
 
+/// The surface over a point of a trim curve; the domain's border stands for what is outside.
+Vec3 Converter::Lift(const CurveView<2>& trim, double t) const
+{
+  const SurfaceView surface = this->Result.Face.Geometry.View();
+  const Vec2 p = Evaluate(trim, t);
+  return Evaluate(surface, surface.Domain(0).Clamp(p[0]), surface.Domain(1).Clamp(p[1]));
+}
+
 /// Largest distance of the lifted trim curve from its edge.
 double Converter::Deviation(const Part::TrimCurve& trim) const
 {
   const Part::Edge& edge = (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)];
-  const SurfaceView surface = this->Result.Face.Geometry.View();
   double distance = 0.0;
   for (const double t : SampleParameters(trim.Geometry.View(), edge.Geometry.View()))
   {
-    const Vec2 p = Evaluate(trim.Geometry.View(), t);
     const Vec3 onEdge = Evaluate(edge.Geometry.View(), t);
-    distance = std::max(distance, (Evaluate(surface, p[0], p[1]) - onEdge).norm());
+    distance = std::max(distance, (this->Lift(trim.Geometry.View(), t) - onEdge).norm());
   }
   return distance;
 }
@@ -538,7 +548,6 @@ double Converter::Deviation(const Part::TrimCurve& trim) const
 /// Tells how far the edges are and where the face sees the vertices.
 void Converter::MeasureEdges()
 {
-  const SurfaceView surface = this->Result.Face.Geometry.View();
   for (const Part::Loop& loop : this->Result.Face.Loops)
   {
     for (const Part::TrimCurve& trim : loop)
@@ -547,12 +556,21 @@ void Converter::MeasureEdges()
       const Interval domain = trim.Geometry.View().Domain();
       for (int k = 0; k < 2; ++k)
       {
-        const Vec2 p = Evaluate(trim.Geometry.View(), k == 0 ? domain.Min : domain.Max);
-        this->Result.Ends.push_back({ edge.Vertex[k], Evaluate(surface, p[0], p[1]) });
+        const double t = k == 0 ? domain.Min : domain.Max;
+        this->Result.Ends.push_back({ edge.Vertex[k], this->Lift(trim.Geometry.View(), t) });
       }
       if (edge.Kind == Part::EdgeKind::Curve)
       {
         this->Result.Deviations.push_back({ trim.Edge, this->Deviation(trim) });
+      }
+      else if (edge.Kind == Part::EdgeKind::Pole)
+      {
+        Box3 box;
+        for (int k = 0; k <= 8; ++k)
+        {
+          box.extend(this->Lift(trim.Geometry.View(), domain.Min + k * domain.Length() / 8.0));
+        }
+        this->Result.Poles.push_back({ trim.Edge, box });
       }
     }
   }

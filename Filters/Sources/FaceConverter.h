@@ -42,6 +42,11 @@ struct FaceResult
     std::int64_t Edge;
     double Distance; ///< Largest distance of the lifted trim curve from the edge's curve.
   };
+  struct Pole
+  {
+    std::int64_t Edge;
+    Box3 Box; ///< Of the lifted trim curve, a point if the edge is truly degenerate.
+  };
   struct End
   {
     std::int64_t Vertex;
@@ -49,6 +54,7 @@ struct FaceResult
   };
   Part::Face Face;
   std::vector<Deviation> Deviations;
+  std::vector<Pole> Poles;
   std::vector<End> Ends;
 };
 

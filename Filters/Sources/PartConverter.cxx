@@ -301,6 +301,12 @@ void Converter::Gather(std::vector<FaceResult>& faces)
       // Samples miss the very peak by a little.
       tolerance = std::max(tolerance, 1.1 * d.Distance + 1e-14 * this->Table.Size);
     }
+    for (const FaceResult::Pole& pole : face.Poles)
+    {
+      const Part::Edge& edge = this->Result.Edges[static_cast<std::size_t>(pole.Edge)];
+      extend(edge.Vertex[0], pole.Box.min());
+      extend(edge.Vertex[0], pole.Box.max());
+    }
     for (const FaceResult::End& end : face.Ends)
     {
       extend(end.Vertex, end.Point);
@@ -320,6 +326,20 @@ void Converter::Gather(std::vector<FaceResult>& faces)
     if (!boxes[i].isEmpty())
     {
       this->Result.Vertices[i] = boxes[i].center();
+    }
+  }
+  for (const FaceResult& face : faces)
+  {
+    for (const FaceResult::Pole& pole : face.Poles)
+    {
+      Part::Edge& edge = this->Result.Edges[static_cast<std::size_t>(pole.Edge)];
+      if (edge.Vertex[0] >= 0)
+      {
+        const Vec3& vertex = this->Result.Vertices[static_cast<std::size_t>(edge.Vertex[0])];
+        const Vec3 far =
+          (pole.Box.max() - vertex).cwiseAbs().cwiseMax((vertex - pole.Box.min()).cwiseAbs());
+        edge.Tolerance = std::max(edge.Tolerance, far.norm());
+      }
     }
   }
 }

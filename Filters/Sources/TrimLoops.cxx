@@ -232,7 +232,9 @@ std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3
   }
   std::sort(knots.begin(), knots.end());
   const Interval domain = trim.Domain();
-  const int inSpan = std::max(3, 24 / static_cast<int>(std::max<std::size_t>(knots.size() / 2, 1)));
+  // Even, so that the middle of a span, where a curve may touch the domain's border, is among them.
+  const int spans = static_cast<int>(std::max<std::size_t>(knots.size() / 2, 1));
+  const int inSpan = std::max(8, 32 / spans);
   std::vector<double> samples{ domain.Min };
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
   {
