@@ -11,6 +11,8 @@ namespace nurbs
 namespace
 {
 
+/// Gap of a loop between curves that share a vertex, as a part of the domain's size.
+constexpr double VertexGapLimit = 0.1;
 /// Gaps and excesses under this part of the domain are rounding.
 constexpr double NegligiblePart = 1e-6;
 /// A loop may leave the domain by this part of it (the tessellator clamps), no further.
@@ -134,6 +136,20 @@ std::string Part(double value)
   return text.str();
 }
 
+/// True if the edges of two consecutive curves of a loop say that they meet at one vertex: then a gap
+/// is a matter of the vertex's tolerance, which some files stretch.
+bool MeetAtVertex(const Model& model, const TrimLoop& loop, std::int64_t c, std::int64_t next)
+{
+  const TrimCurve& first = model.TrimCurves[loop.FirstCurve + c];
+  const TrimCurve& second = model.TrimCurves[loop.FirstCurve + next];
+  if (first.Edge < 0 || second.Edge < 0)
+  {
+    return false;
+  }
+  const std::int64_t end = model.Edges[first.Edge].Vertex[first.Reversed ? 0 : 1];
+  return end >= 0 && end == model.Edges[second.Edge].Vertex[second.Reversed ? 1 : 0];
+}
+
 /// The reason why the loop is open, or "".
 std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop,
   const DomainBox& domain, double gapLimit, const std::string& name,
@@ -146,7 +162,8 @@ std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop
     const Vec2 a = CurveEnd(model.TrimCurves[loop.FirstCurve + c], 1);
     const Vec2 b = CurveEnd(model.TrimCurves[loop.FirstCurve + next], 0);
     const double gap = (domain.Relative(b) - domain.Relative(a)).norm();
-    if (!(gap <= gapLimit) && !IsBridgedByPole(face, domain, a, b))
+    const double limit = MeetAtVertex(model, loop, c, next) ? VertexGapLimit : 0.0;
+    if (!(gap <= std::max(gapLimit, limit)) && !IsBridgedByPole(face, domain, a, b))
     {
       return name + "it is open: between its trim curves " + std::to_string(c) + " and " +
         std::to_string(next) + " is a gap of " + Part(gap);
