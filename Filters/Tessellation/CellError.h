@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file CellError.h
+/// @brief Decides whether two triangles can replace the surface over a cell, and where to split.
+#pragma once
+
+#include "SurfaceBound.h"
+#include "SurfaceEvaluator.h"
+
+namespace nurbs
+{
+
+struct TreeGoal;
+
+/// Height h over the facet and sliding d along it as one distance.
+///
+/// A surface point lies h over the facet's plane, its foot at most d from the facet's own point. If
+/// the mesh goes on around the facet with a slope of at most `slope` against it, the foot has mesh
+/// above it at d * slope at most: distance <= h + d slope. Without that: sqrt(h^2 + d^2).
+double SurfaceDistance(double height, double sliding, double slope);
+
+/// Examines cells of one surface. One object per thread.
+class CellError
+{
+public:
+  CellError(const SurfaceBound& bound, const TreeGoal& goal);
+
+  /// Returns -1 if the cell over `box` is good enough, else the direction (0: u, 1: v) to split.
+  /// @param patch the Bezier form over exactly this box, or null for boxes of several spans.
+  /// @param range receives the second derivatives' bounds for any triangle inside the box.
+  /// @param error receives the bound (or estimate) of the deviation.
+  int Examine(
+    const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range, double& error);
+
+private:
+  struct Corner
+  {
+    Vec3 X, Du, Dv;
+  };
+  void Corners(const ParameterBox& box, const BezierPatch* patch);
+  double Slope(const Vec3& n) const;
+  double Bounded(const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range);
+  double Estimated(const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range);
+  bool ExceedsLimits(int& axis) const;
+
+  const SurfaceBound& Bound;
+  const TreeGoal& Goal;
+  SurfaceEvaluator Evaluator;
+  SurfaceBound::Coefficients Coefficients;
+  Corner At[4]; ///< (0,0), (1,0), (0,1), (1,1).
+  double CostU = 0.0, CostV = 0.0;
+};
+
+} // namespace nurbs

@@ -1,0 +1,603 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeDiscretizer.h"
+
+#include "SurfaceEvaluator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nurbs
+{
+
+namespace
+{
+constexpr double CurveShare = 0.8; // Of the tolerance; the rest is for the surface beside the edge.
+
+Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
+{
+  const CurveView<2>& c = model.TrimCurves[curve].Geometry;
+  const Interval domain = c.Domain();
+  return Evaluate(c, end == 0 ? domain.Min : domain.Max);
+}
+
+// A straight trim curve from a to b over the parameter interval `domain`.
+TrimCurve StraightCurve(CompletedModel& out, const Vec2& a, const Vec2& b, const Interval& domain)
+{
+  Curve<2> line;
+  line.Degree = 1;
+  line.Knots = { domain.Min, domain.Min, domain.Max, domain.Max };
+  line.Points = { a, b };
+  line.Weights = { 1.0, 1.0 };
+  out.OwnCurves.push_back(std::move(line));
+  out.OwnCurves.back().Pack();
+  TrimCurve curve;
+  curve.Geometry = out.OwnCurves.back().View();
+  return curve;
+}
+
+std::int64_t AddEdge(CompletedModel& out, bool degenerate)
+{
+  static const double pole[4] = { 0.0, 0.0, 0.0, 1.0 };
+  static const double knots[2] = { 0.0, 1.0 };
+  Edge edge;
+  if (degenerate)
+  {
+    edge.Geometry.Degree = 0;
+    edge.Geometry.Count = 1;
+    edge.Geometry.Points = pole;
+    edge.Geometry.Knots = KnotView(knots, 2);
+  }
+  out.Data.Edges.push_back(edge);
+  return std::int64_t(out.Data.Edges.size()) - 1;
+}
+
+// The natural boundary, counter-clockwise: v = min, u = max, v = max, u = min.
+void AddNaturalBoundary(CompletedModel& out, Face& face)
+{
+  const SurfaceView& s = face.Geometry;
+  const Interval u = s.Domain(0);
+  const Interval v = s.Domain(1);
+  Box3 box;
+  for (std::int64_t k = 0; k < s.Size(); ++k)
+  {
+    box.extend(s.Point(k));
+  }
+  const double tolerance = 1e-9 * box.diagonal().norm();
+  const Vec2 c00(u.Min, v.Min);
+  const Vec2 c10(u.Max, v.Min);
+  const Vec2 c01(u.Min, v.Max);
+  const Vec2 c11(u.Max, v.Max);
+  TrimCurve sides[4] = { StraightCurve(out, c00, c10, u), StraightCurve(out, c10, c11, v),
+    StraightCurve(out, c01, c11, u), StraightCurve(out, c00, c01, v) };
+  sides[2].Reversed = sides[3].Reversed = true;
+  const int direction[4] = { 1, 0, 1, 0 };
+  const int end[4] = { 0, 1, 1, 0 };
+  for (int k = 0; k < 4; ++k)
+  {
+    const bool pole = IsDegenerateSide(s, direction[k], end[k], tolerance);
+    const bool closed = k >= 2 && !pole && IsClosed(s, direction[k], tolerance);
+    sides[k].Edge = closed ? sides[k == 2 ? 0 : 1].Edge : AddEdge(out, pole);
+  }
+  face.FirstLoop = std::int64_t(out.Data.Loops.size());
+  face.LoopCount = 1;
+  out.Data.Loops.push_back({ std::int64_t(out.Data.TrimCurves.size()), 4 });
+  out.Data.TrimCurves.insert(out.Data.TrimCurves.end(), sides, sides + 4);
+}
+
+struct UnionFind
+{
+  std::vector<std::int64_t> Parent;
+  explicit UnionFind(std::size_t n)
+    : Parent(n)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+  }
+  std::int64_t Find(std::int64_t x)
+  {
+    while (this->Parent[x] != x)
+    {
+      x = this->Parent[x] = this->Parent[this->Parent[x]];
+    }
+    return x;
+  }
+  void Join(std::int64_t a, std::int64_t b)
+  {
+    a = this->Find(a);
+    b = this->Find(b);
+    this->Parent[std::max(a, b)] = std::min(a, b);
+  }
+};
+
+bool IsDegenerate(const Edge& edge)
+{
+  return edge.Geometry.Count == 1;
+}
+
+// Gives every edge end a vertex: ends that meet in a loop share it.
+void CompleteVertices(CompletedModel& out, const std::vector<std::string>& faceErrors)
+{
+  Model& model = out.Data;
+  const std::int64_t known = std::int64_t(model.Vertices.size());
+  const auto node = [&](std::int64_t edge, int end) {
+    const std::int64_t id = model.Edges[edge].Vertex[end];
+    return id >= 0 ? id : known + 2 * edge + end;
+  };
+  UnionFind sets(known + 2 * model.Edges.size());
+  std::vector<std::int64_t> first(known + 2 * model.Edges.size(), -1);
+  std::vector<Vec3> position(first.size());
+  for (std::size_t e = 0; e < model.Edges.size(); ++e)
+  {
+    if (IsDegenerate(model.Edges[e]))
+    {
+      sets.Join(node(e, 0), node(e, 1));
+    }
+  }
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    if (!faceErrors[f].empty())
+    {
+      continue;
+    }
+    const Face& face = model.Faces[f];
+    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const TrimLoop& loop = model.Loops[l];
+      for (std::int64_t k = 0; k < loop.CurveCount; ++k)
+      {
+        const std::int64_t a = loop.FirstCurve + k;
+        const std::int64_t b = loop.FirstCurve + (k + 1) % loop.CurveCount;
+        const TrimCurve& ca = model.TrimCurves[a];
+        const TrimCurve& cb = model.TrimCurves[b];
+        const std::int64_t na = node(ca.Edge, ca.Reversed ? 0 : 1);
+        const std::int64_t nb = node(cb.Edge, cb.Reversed ? 1 : 0);
+        sets.Join(na, nb);
+        if (nb >= known && first[nb] < 0)
+        {
+          const Vec2 uv = CurveEnd(model, b, cb.Reversed ? 1 : 0);
+          first[nb] = 0;
+          position[nb] = Evaluate(face.Geometry, uv[0], uv[1]);
+        }
+        if (na >= known && first[na] < 0)
+        {
+          const Vec2 uv = CurveEnd(model, a, ca.Reversed ? 0 : 1);
+          first[na] = 0;
+          position[na] = Evaluate(face.Geometry, uv[0], uv[1]);
+        }
+      }
+    }
+  }
+  std::vector<std::int64_t> vertexOf(first.size(), -1);
+  for (std::size_t e = 0; e < model.Edges.size(); ++e)
+  {
+    for (int end = 0; end < 2; ++end)
+    {
+      const std::int64_t root = sets.Find(node(e, end));
+      if (root < known)
+      {
+        model.Edges[e].Vertex[end] = root;
+        continue;
+      }
+      if (vertexOf[root] < 0)
+      {
+        vertexOf[root] = std::int64_t(model.Vertices.size());
+        model.Vertices.push_back(first[root] < 0 ? Vec3(Vec3::Zero()) : position[root]);
+      }
+      model.Edges[e].Vertex[end] = vertexOf[root];
+    }
+  }
+}
+} // namespace
+
+CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors)
+{
+  CompletedModel out;
+  out.Data = model;
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    if (faceErrors[f].empty() && model.Faces[f].LoopCount == 0)
+    {
+      AddNaturalBoundary(out, out.Data.Faces[f]);
+    }
+  }
+  for (TrimCurve& curve : out.Data.TrimCurves)
+  {
+    if (curve.Edge < 0)
+    {
+      curve.Edge = AddEdge(out, false);
+    }
+  }
+  CompleteVertices(out, faceErrors);
+  return out;
+}
+
+double TrimParameter(const TrimCurve& curve, const Interval& edge, double t)
+{
+  const Interval own = curve.Geometry.Domain();
+  if (own.Min == edge.Min && own.Max == edge.Max)
+  {
+    return t;
+  }
+  return own.Clamp(own.Min + (t - edge.Min) * (own.Length() / edge.Length()));
+}
+
+Interval EdgeDomain(
+  const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses)
+{
+  const CurveView<3>& c = model.Edges[edge].Geometry;
+  if (c.Count > 1 || uses.empty())
+  {
+    return c.Domain();
+  }
+  return model.TrimCurves[uses.front().Curve].Geometry.Domain();
+}
+
+namespace
+{
+// Parameters in (0, 1) where a Bezier function changes sign, by subdivision.
+void FindRoots(const std::vector<Vec<1>>& f, double t0, double t1, int depth,
+  std::vector<double>& roots)
+{
+  bool positive = false;
+  bool negative = false;
+  for (const Vec<1>& c : f)
+  {
+    positive = positive || c[0] > 0.0;
+    negative = negative || c[0] < 0.0;
+  }
+  if (!positive || !negative)
+  {
+    return;
+  }
+  if (depth == 0)
+  {
+    roots.push_back(0.5 * (t0 + t1));
+    return;
+  }
+  std::vector<Vec<1>> left(f.size());
+  std::vector<Vec<1>> right(f.size());
+  SplitBezier<1>(f.data(), int(f.size()) - 1, 0.5, left.data(), right.data());
+  const double tm = 0.5 * (t0 + t1);
+  FindRoots(left, t0, tm, depth - 1, roots);
+  if (left.back()[0] == 0.0)
+  {
+    roots.push_back(tm);
+  }
+  FindRoots(right, tm, t1, depth - 1, roots);
+}
+
+// The straight line between two points of a domain, lifted to the surface.
+std::vector<BezierCurve<3>> LiftChord(const SurfaceView& surface, const Vec2& a, const Vec2& b)
+{
+  const double points[6] = { a[0], a[1], 1.0, b[0], b[1], 1.0 };
+  const double knots[4] = { 0.0, 0.0, 1.0, 1.0 };
+  CurveView<2> chord;
+  chord.Degree = 1;
+  chord.Knots = KnotView(knots, 4);
+  chord.Points = points;
+  chord.Count = 2;
+  return LiftTrimCurve(surface, chord);
+}
+
+bool IsStraight(const CurveView<2>& c)
+{
+  const Vec2 a = c.Point(0);
+  const Vec2 d = c.Point(c.Count - 1) - a;
+  const double length = d.squaredNorm();
+  for (int i = 1; i + 1 < c.Count; ++i)
+  {
+    const Vec2 p = c.Point(i) - a;
+    if (std::abs(d[0] * p[1] - d[1] * p[0]) > 1e-10 * length)
+    {
+      return false;
+    }
+  }
+  return length > 0.0;
+}
+
+class Discretizer
+{
+public:
+  Discretizer(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses,
+    const std::vector<FaceContext>& faces, double tolerance, const TessellatorOptions& options)
+    : Data(model)
+    , EdgeIndex(edge)
+    , Uses(uses)
+    , Faces(faces)
+    , Tolerance(tolerance)
+    , Options(options)
+    , Domain(EdgeDomain(model, edge, uses))
+  {
+  }
+
+  EdgePolyline Run(const std::vector<double>& extra)
+  {
+    this->ChooseCurve();
+    std::vector<double>& ts = this->Out.Parameters;
+    ts = ApproximateCurve(
+      this->Pieces, CurveShare * this->Tolerance, this->Options.Curves, this->Out.Error);
+    if (ts.size() < 2)
+    {
+      ts = { this->Domain.Min, this->Domain.Max };
+    }
+    ts.front() = this->Domain.Min;
+    ts.back() = this->Domain.Max;
+    std::vector<double> forced = extra;
+    this->CreaseCrossings(forced);
+    this->Insert(forced);
+    this->LimitLength();
+    const Edge& edge = this->Data.Edges[this->EdgeIndex];
+    if (edge.Vertex[0] == edge.Vertex[1] && ts.size() < 4)
+    {
+      std::vector<double> thirds;
+      for (int k = 1; k < 4; ++k)
+      {
+        thirds.push_back(this->Domain.Min + this->Domain.Length() * k / 4.0);
+      }
+      this->Insert(thirds);
+    }
+    for (int pass = 0; pass < 4 && this->Vote(); ++pass)
+    {
+    }
+    this->MakePoints();
+    return std::move(this->Out);
+  }
+
+private:
+  Vec2 UV(const EdgeUse& use, double t) const
+  {
+    const TrimCurve& curve = this->Data.TrimCurves[use.Curve];
+    return Evaluate(curve.Geometry, TrimParameter(curve, this->Domain, t));
+  }
+
+  Vec3 Lifted(const EdgeUse& use, double t) const
+  {
+    const Vec2 uv = this->UV(use, t);
+    return Evaluate(this->Data.Faces[use.Face].Geometry, uv[0], uv[1]);
+  }
+
+  // The edge's own 3D curve if it fits its faces; else the lowest face's lifted trim curve (control
+  // points that a filter moved, models without edge curves).
+  void ChooseCurve()
+  {
+    const Edge& edge = this->Data.Edges[this->EdgeIndex];
+    double gap = 0.0;
+    double size = 0.0;
+    const bool known = edge.Geometry.Count > 1;
+    for (const EdgeUse& use : this->Uses)
+    {
+      size = std::max(size, this->Faces[use.Face].Bound->Size());
+      for (int k = 0; k <= 8 && (known || this->Uses.size() > 1); ++k)
+      {
+        const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+        const Vec3 x = known ? Evaluate(edge.Geometry, t) : this->Lifted(this->Uses[0], t);
+        gap = std::max(gap, (this->Lifted(use, t) - x).norm());
+      }
+    }
+    this->OwnCurve = known && gap <= std::max(4.0 * edge.Tolerance, 1e-5 * size);
+    if (known && !this->OwnCurve)
+    {
+      gap = 0.0;
+      for (std::size_t i = 1; i < this->Uses.size(); ++i)
+      {
+        for (int k = 0; k <= 8; ++k)
+        {
+          const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+          gap = std::max(
+            gap, (this->Lifted(this->Uses[i], t) - this->Lifted(this->Uses[0], t)).norm());
+        }
+      }
+    }
+    this->Out.Gap = this->OwnCurve ? std::max(gap, std::min(edge.Tolerance, 2.0 * gap)) : gap;
+    if (this->OwnCurve)
+    {
+      this->Pieces = ToBezier(edge.Geometry);
+      return;
+    }
+    const EdgeUse& use = this->Uses.front();
+    const TrimCurve& curve = this->Data.TrimCurves[use.Curve];
+    this->Pieces = LiftTrimCurve(this->Data.Faces[use.Face].Geometry, curve.Geometry);
+    const Interval own = curve.Geometry.Domain();
+    const double scale = this->Domain.Length() / own.Length();
+    if (own.Min != this->Domain.Min || own.Max != this->Domain.Max)
+    {
+      for (BezierCurve<3>& piece : this->Pieces)
+      {
+        piece.T0 = this->Domain.Min + (piece.T0 - own.Min) * scale;
+        piece.T1 = this->Domain.Min + (piece.T1 - own.Min) * scale;
+      }
+    }
+  }
+
+  // Adds parameters that are not too near to others.
+  void Insert(const std::vector<double>& add)
+  {
+    std::vector<double>& ts = this->Out.Parameters;
+    const double eps = 1e-9 * this->Domain.Length();
+    for (double t : add)
+    {
+      const auto at = std::lower_bound(ts.begin(), ts.end(), t);
+      if (at != ts.begin() && at != ts.end() && *at - t > eps && t - *(at - 1) > eps)
+      {
+        ts.insert(at, t);
+      }
+    }
+  }
+
+  // Triangles may not cross a crease of the surface: the edge has a vertex where it does.
+  void CreaseCrossings(std::vector<double>& forced) const
+  {
+    for (const EdgeUse& use : this->Uses)
+    {
+      const SurfaceTree* tree = this->Faces[use.Face].Tree;
+      if (!tree || (tree->Creases(0).empty() && tree->Creases(1).empty()))
+      {
+        continue;
+      }
+      const CurveView<2>& c = this->Data.TrimCurves[use.Curve].Geometry;
+      const Interval own = c.Domain();
+      for (const BezierCurve<2>& piece : ToBezier(c))
+      {
+        for (int d = 0; d < 2; ++d)
+        {
+          for (double knot : tree->Creases(d))
+          {
+            std::vector<Vec<1>> f;
+            for (const Vec3& h : piece.Points)
+            {
+              f.push_back(Vec<1>(h[d] - knot * h[2]));
+            }
+            std::vector<double> roots;
+            FindRoots(f, piece.T0, piece.T1, 40, roots);
+            for (double t : roots)
+            {
+              forced.push_back(
+                this->Domain.Min + (t - own.Min) * (this->Domain.Length() / own.Length()));
+            }
+          }
+        }
+      }
+    }
+  }
+
+  void LimitLength()
+  {
+    const double limit = this->Options.MaximumEdgeLength;
+    if (!(limit > 0.0))
+    {
+      return;
+    }
+    const std::vector<double> ts = this->Out.Parameters;
+    std::vector<double> add;
+    for (std::size_t k = 0; k + 1 < ts.size(); ++k)
+    {
+      const double length = (this->At(ts[k + 1]) - this->At(ts[k])).norm();
+      const int n = int(std::min(1e6, std::ceil(length / limit)));
+      for (int i = 1; i < n; ++i)
+      {
+        add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);
+      }
+    }
+    this->Insert(add);
+  }
+
+  Vec3 At(double t) const
+  {
+    return this->OwnCurve ? Evaluate(this->Data.Edges[this->EdgeIndex].Geometry, t)
+                          : this->Lifted(this->Uses.front(), t);
+  }
+
+  // Segments that the chord between two parameter points needs to stay at the surface; 1: fine.
+  int ChordSegments(const EdgeUse& use, const Vec2& a, const Vec2& b, double& error) const
+  {
+    const FaceContext& face = this->Faces[use.Face];
+    const double goal = CurveShare * this->Tolerance;
+    ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
+      std::max(a[1], b[1]) };
+    double bow = 0.0;
+    const std::vector<TreeLeaf>& leaves = face.Tree->Leaves();
+    face.Tree->Query(box,
+      [&](int leaf) { bow = std::max(bow, DeviationBound(leaves[leaf].Range, box.A(), box.B())); });
+    if (bow <= goal)
+    {
+      error = bow;
+      return 1;
+    }
+    if (this->Options.Error == ErrorMode::Estimated)
+    {
+      const SurfaceView& s = face.Bound->View();
+      const Vec3 x0 = Evaluate(s, a[0], a[1]);
+      const Vec3 x1 = Evaluate(s, b[0], b[1]);
+      Vec3 direction = x1 - x0;
+      direction /= std::max(1e-300, direction.norm());
+      double far = 0.0;
+      for (double t : { 0.25, 0.5, 0.75 })
+      {
+        const Vec2 p = a + t * (b - a);
+        const Vec3 x = Evaluate(s, p[0], p[1]) - x0;
+        far = std::max(far, (x - direction * direction.dot(x)).norm());
+      }
+      error = far;
+      return far <= goal ? 1 : std::min(64, int(std::ceil(std::sqrt(far / goal))));
+    }
+    CurveOptions options = this->Options.Curves;
+    const std::size_t points =
+      ApproximateCurve(LiftChord(face.Bound->View(), a, b), goal, options, error).size();
+    return std::max(1, std::min(64, int(points) - 1));
+  }
+
+  // Every face looks at every chord in its own domain; returns true if it had to add parameters.
+  bool Vote()
+  {
+    std::vector<double> add;
+    for (const EdgeUse& use : this->Uses)
+    {
+      const FaceContext& face = this->Faces[use.Face];
+      if (!face.Tree || IsStraight(this->Data.TrimCurves[use.Curve].Geometry))
+      {
+        continue;
+      }
+      const std::vector<double>& ts = this->Out.Parameters;
+      Vec2 a = this->UV(use, ts[0]);
+      for (std::size_t k = 0; k + 1 < ts.size(); ++k)
+      {
+        const Vec2 b = this->UV(use, ts[k + 1]);
+        double error = 0.0;
+        const int n = this->ChordSegments(use, a, b, error);
+        this->Out.Error = std::max(this->Out.Error, n == 1 ? error : 0.0);
+        for (int i = 1; i < n; ++i)
+        {
+          add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);
+        }
+        a = b;
+      }
+    }
+    std::sort(add.begin(), add.end());
+    const std::size_t before = this->Out.Parameters.size();
+    this->Insert(add);
+    return this->Out.Parameters.size() > before;
+  }
+
+  void MakePoints()
+  {
+    const Edge& edge = this->Data.Edges[this->EdgeIndex];
+    const std::vector<double>& ts = this->Out.Parameters;
+    this->Out.Points.resize(ts.size());
+    this->Out.Points.front() = this->Data.Vertices[edge.Vertex[0]];
+    this->Out.Points.back() = this->Data.Vertices[edge.Vertex[1]];
+    for (std::size_t k = 1; k + 1 < ts.size(); ++k)
+    {
+      this->Out.Points[k] = this->At(ts[k]);
+    }
+  }
+
+  const Model& Data;
+  std::int64_t EdgeIndex;
+  const std::vector<EdgeUse>& Uses;
+  const std::vector<FaceContext>& Faces;
+  double Tolerance;
+  const TessellatorOptions& Options;
+  Interval Domain;
+  bool OwnCurve = false;
+  std::vector<BezierCurve<3>> Pieces;
+  EdgePolyline Out;
+};
+} // namespace
+
+EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge,
+  const std::vector<EdgeUse>& uses, const std::vector<FaceContext>& faces, double tolerance,
+  const TessellatorOptions& options, const std::vector<double>& extra)
+{
+  if (IsDegenerate(model.Edges[edge]))
+  {
+    EdgePolyline pole;
+    pole.Degenerate = true;
+    const Interval domain = EdgeDomain(model, edge, uses);
+    pole.Parameters = { domain.Min, domain.Max };
+    pole.Points.assign(2, model.Vertices[model.Edges[edge].Vertex[0]]);
+    return pole;
+  }
+  return Discretizer(model, edge, uses, faces, tolerance, options).Run(extra);
+}
+
+} // namespace nurbs

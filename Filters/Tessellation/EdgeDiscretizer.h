@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file EdgeDiscretizer.h
+/// @brief One polyline an edge, the same for every face that uses it.
+///
+/// Source: Balazs, Guthe, Klein 2004, sections 4 and 5.1, and for watertightness ours: the edge's 3D
+/// curve alone decides where its points lie; each face that uses it may ask for more points, where
+/// the straight line between two of them in the face's own parameter domain would leave the surface
+/// by more than the tolerance.
+#pragma once
+
+#include "Model.h"
+#include "SurfaceTree.h"
+
+#include <deque>
+
+namespace nurbs
+{
+
+/// A model completed for tessellation: faces without loops have their natural boundary, and every
+/// trim curve has an edge of its own or a shared one.
+struct CompletedModel
+{
+  Model Data;
+  std::deque<Curve<2>> OwnCurves; ///< Storage of natural boundaries.
+};
+
+/// Completes a model. Opposite sides of a closed surface share an edge; sides that are a point get
+/// a degenerate edge.
+/// @param planarTolerance distance under which two points count as one.
+CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors);
+
+/// One place where a loop of a face runs along an edge.
+struct EdgeUse
+{
+  std::int64_t Face = -1;
+  std::int64_t Curve = -1; ///< Index into Model::TrimCurves.
+};
+
+/// An edge as a polyline.
+struct EdgePolyline
+{
+  std::vector<double> Parameters; ///< In the edge's (first trim curve's) parameter, ascending.
+  std::vector<Vec3> Points;       ///< One a parameter; the ends are the model's vertices.
+  double Error = 0.0;             ///< Bound of the curve's distance from the polyline.
+  double Gap = 0.0;               ///< Largest distance of the edge's curve from its faces' own.
+  bool Degenerate = false;        ///< One point: a pole; faces place their own points on it.
+};
+
+/// What the faces know that an edge must respect.
+struct FaceContext
+{
+  const SurfaceBound* Bound = nullptr;
+  const SurfaceTree* Tree = nullptr; ///< Null: planar face, any chord lies on it.
+  double Tolerance = 0.0;
+};
+
+/// The parameter of a trim curve that belongs to an edge's parameter (affine if domains differ).
+double TrimParameter(const TrimCurve& curve, const Interval& edge, double t);
+
+/// The parameter interval of an edge: its 3D curve's domain, or its first trim curve's.
+Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses);
+
+/// Discretises one edge.
+/// @param extra parameters that must be vertices, too (from faces that could not certify without).
+EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge,
+  const std::vector<EdgeUse>& uses, const std::vector<FaceContext>& faces, double tolerance,
+  const TessellatorOptions& options, const std::vector<double>& extra);
+
+} // namespace nurbs

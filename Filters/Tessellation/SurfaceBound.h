@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SurfaceBound.h
+/// @brief Sound bounds of second derivatives over parameter boxes, and of a triangle's deviation.
+///
+/// For a triangle with corners p_i in a parameter box a x b, corners on the surface, and a point
+/// p = sum b_i p_i of it, the remainder of linear interpolation of any C1 function f is
+///   f(p) - sum b_i f(p_i) = -1/2 sum b_i (p_i - p)^T H_i (p_i - p),
+/// H_i a mean of f's Hessian along a segment. Since sum b_i du_i^2 <= a^2/4 and, by Cauchy-Schwarz,
+/// sum b_i |du_i dv_i| <= a b / 4,
+///   |f - L| <= 1/8 (a^2 max|f_uu| + 2 a b max|f_uv| + b^2 max|f_vv|)
+/// for *every* triangle in the box, not only for the two halves of the cell (Balazs section 5.2
+/// bounds the two halves; a trimmed cell has others). With f = n . (H - w p_0) for a rational surface
+/// H / w and the triangle's plane (n, p_0), f vanishes at the corners and |n . (S - p_0)| <= |f| / w.
+/// Derivation: Documentation/Papers/balazs-2004-bound.md.
+#pragma once
+
+#include "Surface.h"
+
+namespace nurbs
+{
+
+/// A rectangle of the parameter domain.
+struct ParameterBox
+{
+  double U0 = 0.0, U1 = 0.0, V0 = 0.0, V1 = 0.0;
+  double A() const { return this->U1 - this->U0; }
+  double B() const { return this->V1 - this->V0; }
+};
+
+/// What is known of the second derivatives over a box: everything a triangle's bound needs.
+/// Index 0: uu, 1: uv, 2: vv. Units: model units per parameter unit squared (times weight for the
+/// homogeneous ones); homogeneous coordinates are taken relative to Origin.
+struct CurvatureRange
+{
+  Vec3 Origin = Vec3::Zero();        ///< A point near the surface over the box.
+  Vec3 Normal = Vec3::Zero();        ///< Unit; zero if the box collapses to a line or point.
+  double Low[3] = { 0, 0, 0 };       ///< Least Normal . H''.
+  double High[3] = { 0, 0, 0 };      ///< Greatest Normal . H''.
+  double Length[3] = { 0, 0, 0 };    ///< Greatest |H''|.
+  double Weight[3] = { 0, 0, 0 };    ///< Greatest |w''|.
+  double Sliding[3] = { 0, 0, 0 };   ///< Greatest |S''| (the Cartesian surface).
+  double MinWeight = 1.0;            ///< Least weight.
+};
+
+/// Bounds |n . (S - p0)| over a triangle with a parameter box a x b whose plane is (n, p0).
+double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0);
+
+/// Bounds |S - L| (height and sliding together) over a triangle with a parameter box a x b.
+double DeviationBound(const CurvatureRange& range, double a, double b);
+
+/// Second-derivative coefficients of one surface, for boxes of any size.
+///
+/// Boxes of several knot spans are bounded by the control nets of the surface's own second
+/// derivatives (B-splines of lower degree), boxes inside one span by their Bezier form.
+class SurfaceBound
+{
+public:
+  explicit SurfaceBound(const SurfaceView& surface);
+
+  const SurfaceView& View() const { return this->Surface; }
+  bool Rational() const { return this->IsRational; }
+  /// Length of the control net's bounding-box diagonal.
+  double Size() const { return this->Diagonal; }
+  /// The centre of the control net's bounding box; nets below are relative to it.
+  const Vec3& Origin() const { return this->Center; }
+  /// True if every control point is within `tolerance` of one plane; `normal` receives it.
+  bool IsPlanar(double tolerance, Vec3& normal, double& distance) const;
+
+  /// The Bezier form over a box inside one knot span, relative to Origin().
+  void Extract(const ParameterBox& box, BezierPatch& patch) const;
+  /// True if the box lies in one span of both knot vectors.
+  bool InOneSpan(const ParameterBox& box) const;
+
+  /// Second-derivative coefficients over a box; Bezier form if `patch` is given.
+  struct Coefficients
+  {
+    std::vector<Vec4> Second[3]; ///< H'' coefficients: uu, uv, vv, per parameter unit squared.
+    double FirstU = 0.0, FirstV = 0.0;   ///< Greatest |H'| (relative to `Origin`).
+    double WeightU = 0.0, WeightV = 0.0; ///< Greatest |w'|.
+    double MinWeight = 1.0;
+    double Radius = 0.0; ///< Greatest distance of the surface from Origin.
+    Vec3 Origin = Vec3::Zero();
+  };
+  void Evaluate(const ParameterBox& box, const BezierPatch* patch, const Vec3& origin,
+    Coefficients& out) const;
+
+  /// Turns coefficients into ranges along `normal`.
+  static CurvatureRange Range(const Coefficients& coefficients, const Vec3& normal);
+
+private:
+  struct Net
+  {
+    int Count[2] = { 0, 0 };
+    std::vector<Vec4> Points;
+    const Vec4& At(int i, int j) const { return this->Points[i + std::size_t(j) * this->Count[0]]; }
+  };
+  Net Derivative(const Net& net, int dir, KnotView knots, int degree, int order) const;
+  void FromNets(const ParameterBox& box, const Vec3& origin, Coefficients& out) const;
+  static void FromBezier(const ParameterBox& box, const BezierPatch& patch, const Vec3& origin,
+    Coefficients& out, bool rational);
+
+  SurfaceView Surface;
+  bool IsRational = false;
+  Vec3 Center = Vec3::Zero();
+  double Diagonal = 0.0;
+  Net Control;
+  Net First[2];
+  Net Second[3];
+  bool HaveNets = false;
+};
+
+} // namespace nurbs

@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTree.h"
+
+#include "CellError.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+namespace
+{
+constexpr int FractionBits = 20;
+constexpr LineCode One = LineCode(1) << FractionBits;
+
+// Segments that a parameter interval wants: the square root of deviation over tolerance for one
+// chord, sampled inside the knot spans of both directions.
+struct DemandSamples
+{
+  std::vector<double> At;     // Sample boundaries, ascending: cell k is [At[k], At[k+1]].
+  std::vector<double> Wanted; // Segments wanted in cell k.
+};
+
+int SamplesOfSpan(int degree, std::size_t spans)
+{
+  const int wish = degree == 1 ? 1 : (degree <= 3 ? 2 : degree);
+  return spans > 24 ? std::min(wish, 2) : wish;
+}
+
+std::vector<double> SpanBreaks(KnotView knots, int degree, double low, double high)
+{
+  std::vector<double> breaks{ low };
+  const double eps = 1e-12 * (std::abs(low) + std::abs(high));
+  for (const Knot& knot : DistinctKnots(knots, degree))
+  {
+    if (knot.Value > low + eps && knot.Value < high - eps)
+    {
+      breaks.push_back(knot.Value);
+    }
+  }
+  breaks.push_back(high);
+  return breaks;
+}
+
+DemandSamples MakeCells(const std::vector<double>& breaks, int degree)
+{
+  DemandSamples s;
+  const int n = SamplesOfSpan(degree, breaks.size() - 1);
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      s.At.push_back(breaks[k] + (breaks[k + 1] - breaks[k]) * i / n);
+    }
+  }
+  s.At.push_back(breaks.back());
+  s.Wanted.assign(s.At.size() - 1, 0.0);
+  return s;
+}
+
+// Sample positions in a direction for the *other* direction's demand: cell middles, and both ends
+// where the surface is linear there (a cone is widest at one end).
+std::vector<double> Positions(const DemandSamples& s, int degree)
+{
+  std::vector<double> at;
+  if (degree == 1 && s.At.size() == 2)
+  {
+    const double a = s.At.front();
+    const double b = s.At.back();
+    return { a + 0.02 * (b - a), b - 0.02 * (b - a) };
+  }
+  for (std::size_t k = 0; k + 1 < s.At.size(); ++k)
+  {
+    at.push_back(0.5 * (s.At[k] + s.At[k + 1]));
+  }
+  return at;
+}
+
+void SampleDemand(const SurfaceBound& bound, double tolerance, DemandSamples& u, DemandSamples& v,
+  const ParallelFor& parallel)
+{
+  const SurfaceView& surface = bound.View();
+  const std::vector<double> us = Positions(u, surface.Degree[0]);
+  const std::vector<double> vs = Positions(v, surface.Degree[1]);
+  const auto cell = [](const DemandSamples& s, std::size_t sample, std::size_t samples) {
+    return samples == s.Wanted.size() ? sample : std::size_t(0);
+  };
+  std::vector<double> wantU(us.size() * vs.size());
+  std::vector<double> wantV(us.size() * vs.size());
+  parallel(0, std::int64_t(vs.size()), [&](std::int64_t begin, std::int64_t end) {
+    SurfaceEvaluator evaluator(surface);
+    for (std::int64_t j = begin; j < end; ++j)
+    {
+      for (std::size_t i = 0; i < us.size(); ++i)
+      {
+        const SurfaceDerivatives d = evaluator.Derivatives(us[i], vs[j], 2);
+        Vec3 n = d.Su.cross(d.Sv);
+        const double length = n.norm();
+        if (length > 1e-12 * d.Su.norm() * d.Sv.norm() && length > 0.0)
+        {
+          n /= length;
+          wantU[i + j * us.size()] = std::sqrt(std::abs(n.dot(d.Suu)) / (8.0 * tolerance));
+          wantV[i + j * us.size()] = std::sqrt(std::abs(n.dot(d.Svv)) / (8.0 * tolerance));
+        }
+      }
+    }
+  });
+  for (std::size_t j = 0; j < vs.size(); ++j)
+  {
+    for (std::size_t i = 0; i < us.size(); ++i)
+    {
+      double& wu = u.Wanted[cell(u, i, us.size())];
+      double& wv = v.Wanted[cell(v, j, vs.size())];
+      wu = std::max(wu, wantU[i + j * us.size()]);
+      wv = std::max(wv, wantV[i + j * us.size()]);
+    }
+  }
+}
+
+// Lines of one direction: every span boundary, and in each span the quantiles of its demand.
+void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s,
+  std::vector<double>& lines, std::vector<double>& demand)
+{
+  lines.assign(1, breaks.front());
+  demand.assign(1, 0.0);
+  std::size_t cell = 0;
+  const std::size_t perSpan = s.Wanted.size() / (breaks.size() - 1);
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+  {
+    double total = 0.0;
+    for (std::size_t i = cell; i < cell + perSpan; ++i)
+    {
+      total += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
+    }
+    const double start = demand.back();
+    const int n = std::min(20000, std::max(1, int(std::ceil(1.04 * total - 0.02))));
+    double done = 0.0;
+    std::size_t i = cell;
+    for (int m = 1; m < n; ++m)
+    {
+      const double target = total * m / n;
+      while (done + s.Wanted[i] * (s.At[i + 1] - s.At[i]) < target && i + 1 < cell + perSpan)
+      {
+        done += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
+        ++i;
+      }
+      const double t = std::min(s.At[i + 1], s.At[i] + (target - done) / s.Wanted[i]);
+      if (t > lines.back())
+      {
+        lines.push_back(t);
+        demand.push_back(start + target);
+      }
+    }
+    lines.push_back(breaks[k + 1]);
+    demand.push_back(start + total);
+    cell += perSpan;
+  }
+}
+} // namespace
+
+void SurfaceTree::MakeLines(
+  const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal)
+{
+  const SurfaceView& surface = bound.View();
+  const double low[2] = { domain.U0, domain.V0 };
+  const double high[2] = { domain.U1, domain.V1 };
+  std::vector<double> breaks[2];
+  for (int d = 0; d < 2; ++d)
+  {
+    breaks[d] = SpanBreaks(surface.Knots[d], surface.Degree[d], low[d], high[d]);
+    this->Crease[d].clear();
+    for (double t : CreaseKnots(surface.Knots[d], surface.Degree[d]))
+    {
+      if (std::binary_search(breaks[d].begin() + 1, breaks[d].end() - 1, t))
+      {
+        this->Crease[d].push_back(t);
+      }
+    }
+  }
+  if (goal.Method == SubdivisionMethod::KdTree)
+  {
+    DemandSamples u = MakeCells(breaks[0], surface.Degree[0]);
+    DemandSamples v = MakeCells(breaks[1], surface.Degree[1]);
+    SampleDemand(bound, goal.Tolerance, u, v, this->Parallel);
+    PlaceLines(breaks[0], u, this->Line[0], this->Demand[0]);
+    PlaceLines(breaks[1], v, this->Line[1], this->Demand[1]);
+  }
+  else
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      this->Line[d] = this->Crease[d];
+      this->Line[d].insert(this->Line[d].begin(), low[d]);
+      this->Line[d].push_back(high[d]);
+      this->Demand[d].resize(this->Line[d].size());
+      for (std::size_t k = 0; k < this->Line[d].size(); ++k)
+      {
+        this->Demand[d][k] = double(k);
+      }
+    }
+  }
+  for (int d = 0; d < 2; ++d)
+  {
+    this->IsCrease[d].assign(this->Line[d].size(), 0);
+    for (double t : this->Crease[d])
+    {
+      const auto at = std::lower_bound(this->Line[d].begin(), this->Line[d].end(), t);
+      this->IsCrease[d][at - this->Line[d].begin()] = 1;
+    }
+  }
+}
+
+double SurfaceTree::Parameter(int dir, LineCode code) const
+{
+  const std::vector<double>& lines = this->Line[dir];
+  const std::size_t k = std::size_t(code >> FractionBits);
+  const LineCode fraction = code & (One - 1);
+  return fraction == 0 ? lines[k]
+                       : lines[k] + (lines[k + 1] - lines[k]) * (double(fraction) / double(One));
+}
+
+ParameterBox SurfaceTree::BoxOf(const Range& r) const
+{
+  return { this->Parameter(0, r.U0), this->Parameter(0, r.U1), this->Parameter(1, r.V0),
+    this->Parameter(1, r.V1) };
+}
+
+LineCode SurfaceTree::SplitCode(int dir, LineCode low, LineCode high, bool halves) const
+{
+  const LineCode first = (low + One - 1) >> FractionBits;
+  const LineCode last = high >> FractionBits;
+  if (last - first >= 2)
+  {
+    // Crease lines first, then the line that halves the demand.
+    const std::vector<double>& demand = this->Demand[dir];
+    const double middle = 0.5 * (demand[first] + demand[last]);
+    auto at = std::lower_bound(demand.begin() + first, demand.begin() + last, middle);
+    LineCode best = at - demand.begin();
+    if (best - 1 > first && middle - demand[best - 1] < demand[best] - middle)
+    {
+      --best;
+    }
+    if (demand[last] - demand[first] <= 0.0)
+    {
+      best = (first + last) / 2;
+    }
+    if (halves)
+    {
+      const double t = 0.5 * (this->Line[dir][first] + this->Line[dir][last]);
+      const auto& lines = this->Line[dir];
+      best = std::lower_bound(lines.begin(), lines.end(), t) - lines.begin();
+    }
+    best = std::min(last - 1, std::max(first + 1, best));
+    LineCode crease = -1;
+    for (LineCode k = first + 1; k < last; ++k)
+    {
+      if (this->IsCrease[dir][k] && (crease < 0 || std::abs(k - best) < std::abs(crease - best)))
+      {
+        crease = k;
+      }
+    }
+    return (crease >= 0 ? crease : best) << FractionBits;
+  }
+  return high - low >= 2 ? low + (high - low) / 2 : low;
+}
+
+// A part of the tree under construction; parts are built independently and joined in order.
+struct SurfaceTree::Subtree
+{
+  std::vector<Node> Nodes;
+  std::vector<TreeLeaf> Leaves;
+  bool Capped = false;
+};
+
+struct SurfaceTree::Work
+{
+  const SurfaceTree& Tree;
+  const SurfaceBound& Bound;
+  const TreeGoal& Goal;
+  std::int64_t MaximumLeaves;
+  Subtree& Out;
+  CellError Cell;
+
+  Work(const SurfaceTree& tree, const SurfaceBound& bound, const TreeGoal& goal,
+    std::int64_t maximumLeaves, Subtree& out)
+    : Tree(tree)
+    , Bound(bound)
+    , Goal(goal)
+    , MaximumLeaves(maximumLeaves)
+    , Out(out)
+    , Cell(bound, goal)
+  {
+  }
+
+  bool CreaseInside(int dir, LineCode low, LineCode high) const
+  {
+    const LineCode first = (low >> FractionBits) + 1;
+    const LineCode last = (high + One - 1) >> FractionBits;
+    const auto& crease = this->Tree.IsCrease[dir];
+    return first < last &&
+      std::find(crease.begin() + first, crease.begin() + last, 1) != crease.begin() + last;
+  }
+
+  // Children of a range; empty: the range is a leaf, whose data `leaf` receives.
+  std::vector<Range> Divide(const Range& r, const BezierPatch* patch, TreeLeaf& leaf)
+  {
+    const bool creaseU = this->CreaseInside(0, r.U0, r.U1);
+    const bool creaseV = this->CreaseInside(1, r.V0, r.V1);
+    int axis = creaseU ? 0 : 1;
+    if (!creaseU && !creaseV)
+    {
+      leaf.U0 = r.U0;
+      leaf.U1 = r.U1;
+      leaf.V0 = r.V0;
+      leaf.V1 = r.V1;
+      leaf.Box = this->Tree.BoxOf(r);
+      axis = this->Cell.Examine(leaf.Box, patch, leaf.Range, leaf.Error);
+      if (axis >= 0 && std::int64_t(this->Out.Leaves.size()) >= this->MaximumLeaves)
+      {
+        this->Out.Capped = true;
+        axis = -1;
+      }
+      if (axis < 0)
+      {
+        return {};
+      }
+    }
+    const bool halves = this->Goal.Method != SubdivisionMethod::KdTree;
+    LineCode u = this->Tree.SplitCode(0, r.U0, r.U1, halves);
+    LineCode v = this->Tree.SplitCode(1, r.V0, r.V1, halves);
+    if (this->Goal.Method == SubdivisionMethod::QuadTree && u != r.U0 && v != r.V0 && !creaseU &&
+      !creaseV)
+    {
+      return { { r.U0, u, r.V0, v }, { u, r.U1, r.V0, v }, { r.U0, u, v, r.V1 },
+        { u, r.U1, v, r.V1 } };
+    }
+    if ((axis == 0 ? u == r.U0 : v == r.V0) && !creaseU && !creaseV)
+    {
+      axis = 1 - axis;
+    }
+    if (axis == 0 && u != r.U0)
+    {
+      return { { r.U0, u, r.V0, r.V1 }, { u, r.U1, r.V0, r.V1 } };
+    }
+    if (axis == 1 && v != r.V0)
+    {
+      return { { r.U0, r.U1, r.V0, v }, { r.U0, r.U1, v, r.V1 } };
+    }
+    return {};
+  }
+
+  void Build(int node, const Range& r, const BezierPatch* patch)
+  {
+    BezierPatch own;
+    const ParameterBox box = this->Tree.BoxOf(r);
+    if (!patch && this->Bound.InOneSpan(box))
+    {
+      this->Bound.Extract(box, own);
+      patch = &own;
+    }
+    TreeLeaf leaf;
+    const std::vector<Range> children = this->Divide(r, patch, leaf);
+    this->Out.Nodes[node].Box = box;
+    if (children.empty())
+    {
+      this->Out.Nodes[node].First = -1;
+      this->Out.Nodes[node].Count = int(this->Out.Leaves.size());
+      this->Out.Leaves.push_back(leaf);
+      return;
+    }
+    const int first = int(this->Out.Nodes.size());
+    this->Out.Nodes[node].First = first;
+    this->Out.Nodes[node].Count = int(children.size());
+    this->Out.Nodes.resize(first + children.size());
+    if (patch && children.size() == 2)
+    {
+      const int dir = children[0].U1 != r.U1 ? 0 : 1;
+      const ParameterBox low = this->Tree.BoxOf(children[0]);
+      const double t = dir == 0 ? (low.U1 - box.U0) / box.A() : (low.V1 - box.V0) / box.B();
+      BezierPatch halves[2];
+      SplitBezierPatch(*patch, dir, t, halves[0], halves[1]);
+      this->Build(first, children[0], &halves[0]);
+      this->Build(first + 1, children[1], &halves[1]);
+      return;
+    }
+    for (std::size_t c = 0; c < children.size(); ++c)
+    {
+      this->Build(first + int(c), children[c], nullptr);
+    }
+  }
+};
+
+void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain,
+  const TreeGoal& goal, const ParallelFor& parallel)
+{
+  this->Parallel = parallel;
+  this->MakeLines(bound, domain, goal);
+  this->Nodes.assign(1, Node());
+  this->Cells.clear();
+  this->Capped = false;
+  const Range root{ 0, LineCode(this->Line[0].size() - 1) << FractionBits, 0,
+    LineCode(this->Line[1].size() - 1) << FractionBits };
+
+  // Step 1: the upper levels in breadth-first order, until there are enough parts to share out.
+  const bool large = (this->Line[0].size() - 1) * (this->Line[1].size() - 1) > 4000;
+  struct Part
+  {
+    int Node;
+    Range Where;
+  };
+  std::vector<Part> parts{ { 0, root } };
+  Subtree unused;
+  Work top(*this, bound, goal, goal.MaximumLeaves, unused);
+  while (large && !parts.empty() && parts.size() < 128)
+  {
+    std::vector<Part> next;
+    for (const Part& part : parts)
+    {
+      const ParameterBox box = this->BoxOf(part.Where);
+      this->Nodes[part.Node].Box = box;
+      TreeLeaf leaf;
+      const bool tiny = bound.InOneSpan(box);
+      const std::vector<Range> children =
+        tiny ? std::vector<Range>() : top.Divide(part.Where, nullptr, leaf);
+      if (children.empty())
+      {
+        next.push_back(part);
+        continue;
+      }
+      const int first = int(this->Nodes.size());
+      this->Nodes[part.Node].First = first;
+      this->Nodes[part.Node].Count = int(children.size());
+      this->Nodes.resize(first + children.size());
+      for (std::size_t c = 0; c < children.size(); ++c)
+      {
+        next.push_back({ first + int(c), children[c] });
+      }
+    }
+    const bool grew = next.size() > parts.size();
+    parts.swap(next);
+    if (!grew)
+    {
+      break;
+    }
+  }
+
+  // Step 2: every part for itself.
+  std::vector<Subtree> trees(parts.size());
+  const std::int64_t limit =
+    std::max<std::int64_t>(1, goal.MaximumLeaves / std::int64_t(parts.size()));
+  parallel(0, std::int64_t(parts.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k)
+    {
+      trees[k].Nodes.resize(1);
+      Work work(*this, bound, goal, limit, trees[k]);
+      work.Build(0, parts[k].Where, nullptr);
+    }
+  });
+
+  // Step 3: join them in order.
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    const int shift = int(this->Nodes.size()) - 1;
+    const int leafShift = int(this->Cells.size());
+    for (std::size_t i = 0; i < trees[k].Nodes.size(); ++i)
+    {
+      Node node = trees[k].Nodes[i];
+      if (node.First < 0)
+      {
+        node.Count += leafShift;
+      }
+      else
+      {
+        node.First += shift;
+      }
+      if (i == 0)
+      {
+        this->Nodes[parts[k].Node] = node;
+      }
+      else
+      {
+        this->Nodes.push_back(node);
+      }
+    }
+    this->Cells.insert(this->Cells.end(), trees[k].Leaves.begin(), trees[k].Leaves.end());
+    this->Capped = this->Capped || trees[k].Capped;
+    trees[k] = Subtree();
+  }
+}
+
+} // namespace nurbs
