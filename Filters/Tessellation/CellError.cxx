@@ -18,7 +18,7 @@ double SurfaceDistance(double height, double sliding, double slope)
 CellError::CellError(const SurfaceBound& bound, const TreeGoal& goal)
   : Bound(bound)
   , Goal(goal)
-  , Evaluator(bound.View())
+  , Evaluator(bound.Evaluator())
 {
 }
 
@@ -83,9 +83,10 @@ namespace
 constexpr int Facets[2][2][3] = { { { 0, 1, 3 }, { 0, 3, 2 } }, { { 0, 1, 2 }, { 1, 3, 2 } } };
 } // namespace
 
-double CellError::Bounded(
-  const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range)
+double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
 {
+  const ParameterBox& box = leaf.Box;
+  CurvatureRange& range = leaf.Range;
   const double a = box.A();
   const double b = box.B();
   const Vec3 d1 = this->At[3].X - this->At[0].X;
@@ -106,12 +107,15 @@ double CellError::Bounded(
   {
     this->CostU = a * a * range.Sliding[0];
     this->CostV = b * b * range.Sliding[2];
+    leaf.Height = sliding;
+    leaf.Sliding = 0.0;
     return sliding;
   }
   double worst = 1e300;
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
     double error = 0.0;
+    double height = 0.0;
     for (const int* f : Facets[diagonal])
     {
       const Vec3& x = this->At[f[0]].X;
@@ -127,9 +131,16 @@ double CellError::Bounded(
       {
         h = std::min(h, HeightBound(SurfaceBound::Range(this->Coefficients, m), a, b, m, x));
       }
+      height = std::max(height, h);
       error = std::max(error, SurfaceDistance(h, sliding, this->Slope(m)));
     }
-    worst = std::min(worst, error);
+    if (error < worst)
+    {
+      worst = error;
+      leaf.Height = height;
+      leaf.Sliding = sliding;
+      leaf.Diagonal = diagonal;
+    }
   }
   const double slope = std::min(1.0, this->Slope(n));
   this->CostU = a * a * (most(0) + slope * 0.125 * range.Sliding[0]);
@@ -144,9 +155,10 @@ double CellError::Bounded(
   return worst;
 }
 
-double CellError::Estimated(
-  const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range)
+double CellError::Estimated(TreeLeaf& leaf, const BezierPatch* patch)
 {
+  const ParameterBox& box = leaf.Box;
+  CurvatureRange& range = leaf.Range;
   const double a = box.A();
   const double b = box.B();
   // Second derivatives at the middle stand for those of the cell.
@@ -207,7 +219,10 @@ double CellError::Estimated(
       }
     }
   }
-  return std::min(worst[0], worst[1]);
+  leaf.Diagonal = worst[0] <= worst[1] ? 0 : 1;
+  leaf.Height = worst[leaf.Diagonal];
+  leaf.Sliding = 0.0;
+  return leaf.Height;
 }
 
 bool CellError::ExceedsLimits(int& axis) const
@@ -239,12 +254,11 @@ bool CellError::ExceedsLimits(int& axis) const
   return false;
 }
 
-int CellError::Examine(
-  const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range, double& error)
+int CellError::Examine(const BezierPatch* patch, TreeLeaf& leaf)
 {
-  this->Corners(box, patch);
-  error = this->Goal.Error == ErrorMode::Guaranteed ? this->Bounded(box, patch, range)
-                                                    : this->Estimated(box, patch, range);
+  this->Corners(leaf.Box, patch);
+  const double error = this->Goal.Error == ErrorMode::Guaranteed ? this->Bounded(leaf, patch)
+                                                                 : this->Estimated(leaf, patch);
   int axis = this->CostU >= this->CostV ? 0 : 1;
   if (error <= this->Goal.Tolerance && !this->ExceedsLimits(axis))
   {

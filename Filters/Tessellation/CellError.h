@@ -10,6 +10,7 @@ namespace nurbs
 {
 
 struct TreeGoal;
+struct TreeLeaf;
 
 /// Height h over the facet and sliding d along it as one distance.
 ///
@@ -24,12 +25,10 @@ class CellError
 public:
   CellError(const SurfaceBound& bound, const TreeGoal& goal);
 
-  /// Returns -1 if the cell over `box` is good enough, else the direction (0: u, 1: v) to split.
+  /// Returns -1 if the cell `leaf.Box` is good enough, else the direction (0: u, 1: v) to split.
+  /// Fills the leaf's Range (bounds for any triangle inside the box), Height, Sliding, Diagonal.
   /// @param patch the Bezier form over exactly this box, or null for boxes of several spans.
-  /// @param range receives the second derivatives' bounds for any triangle inside the box.
-  /// @param error receives the bound (or estimate) of the deviation.
-  int Examine(
-    const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range, double& error);
+  int Examine(const BezierPatch* patch, TreeLeaf& leaf);
 
 private:
   struct Corner
@@ -38,8 +37,8 @@ private:
   };
   void Corners(const ParameterBox& box, const BezierPatch* patch);
   double Slope(const Vec3& n) const;
-  double Bounded(const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range);
-  double Estimated(const ParameterBox& box, const BezierPatch* patch, CurvatureRange& range);
+  double Bounded(TreeLeaf& leaf, const BezierPatch* patch);
+  double Estimated(TreeLeaf& leaf, const BezierPatch* patch);
   bool ExceedsLimits(int& axis) const;
 
   const SurfaceBound& Bound;

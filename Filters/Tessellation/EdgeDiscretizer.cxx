@@ -193,6 +193,7 @@ CompletedModel CompleteModel(const Model& model, const std::vector<std::string>&
 {
   CompletedModel out;
   out.Data = model;
+  out.KnownEdges = std::int64_t(model.Edges.size());
   for (std::size_t f = 0; f < model.Faces.size(); ++f)
   {
     if (faceErrors[f].empty() && model.Faces[f].LoopCount == 0)

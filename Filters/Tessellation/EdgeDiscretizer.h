@@ -22,11 +22,11 @@ struct CompletedModel
 {
   Model Data;
   std::deque<Curve<2>> OwnCurves; ///< Storage of natural boundaries.
+  std::int64_t KnownEdges = 0;    ///< Edges of the given model; later ones are ours.
 };
 
 /// Completes a model. Opposite sides of a closed surface share an edge; sides that are a point get
 /// a degenerate edge.
-/// @param planarTolerance distance under which two points count as one.
 CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors);
 
 /// One place where a loop of a face runs along an edge.

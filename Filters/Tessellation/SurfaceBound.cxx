@@ -12,6 +12,12 @@ namespace nurbs
 
 double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0)
 {
+  return HeightNumerator(range, a, b, n, p0) / range.MinWeight;
+}
+
+double HeightNumerator(
+  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0)
+{
   const double turn = (n - range.Normal).norm();
   const double offset = std::abs(n.dot(p0 - range.Origin));
   const double scale[3] = { a * a, 2.0 * a * b, b * b };
@@ -26,7 +32,7 @@ double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& 
     high += scale[k] * (k == 1 ? std::max(h, l) : h);
     low += scale[k] * (k == 1 ? std::max(h, l) : l);
   }
-  return 0.125 * std::max(high, low) / range.MinWeight;
+  return 0.125 * std::max(high, low);
 }
 
 double DeviationBound(const CurvatureRange& range, double a, double b)
@@ -37,6 +43,7 @@ double DeviationBound(const CurvatureRange& range, double a, double b)
 
 SurfaceBound::SurfaceBound(const SurfaceView& surface)
   : Surface(surface)
+  , Prototype(surface)
 {
   Box3 box;
   const std::int64_t size = surface.Size();

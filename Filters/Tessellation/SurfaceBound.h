@@ -14,7 +14,7 @@
 /// Derivation: Documentation/Papers/balazs-2004-bound.md.
 #pragma once
 
-#include "Surface.h"
+#include "SurfaceEvaluator.h"
 
 namespace nurbs
 {
@@ -45,6 +45,10 @@ struct CurvatureRange
 /// Bounds |n . (S - p0)| over a triangle with a parameter box a x b whose plane is (n, p0).
 double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0);
 
+/// The same before the division by the least weight, for triangles over several boxes.
+double HeightNumerator(
+  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0);
+
 /// Bounds |S - L| (height and sliding together) over a triangle with a parameter box a x b.
 double DeviationBound(const CurvatureRange& range, double a, double b);
 
@@ -59,6 +63,8 @@ public:
 
   const SurfaceView& View() const { return this->Surface; }
   bool Rational() const { return this->IsRational; }
+  /// An evaluator to copy: copies share the control net.
+  const SurfaceEvaluator& Evaluator() const { return this->Prototype; }
   /// Length of the control net's bounding-box diagonal.
   double Size() const { return this->Diagonal; }
   /// The centre of the control net's bounding box; nets below are relative to it.
@@ -100,6 +106,7 @@ private:
     Coefficients& out, bool rational);
 
   SurfaceView Surface;
+  SurfaceEvaluator Prototype;
   bool IsRational = false;
   Vec3 Center = Vec3::Zero();
   double Diagonal = 0.0;

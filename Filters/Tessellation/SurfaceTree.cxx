@@ -89,7 +89,7 @@ void SampleDemand(const SurfaceBound& bound, double tolerance, DemandSamples& u,
   std::vector<double> wantU(us.size() * vs.size());
   std::vector<double> wantV(us.size() * vs.size());
   parallel(0, std::int64_t(vs.size()), [&](std::int64_t begin, std::int64_t end) {
-    SurfaceEvaluator evaluator(surface);
+    SurfaceEvaluator evaluator(bound.Evaluator());
     for (std::int64_t j = begin; j < end; ++j)
     {
       for (std::size_t i = 0; i < us.size(); ++i)
@@ -315,7 +315,7 @@ struct SurfaceTree::Work
       leaf.V0 = r.V0;
       leaf.V1 = r.V1;
       leaf.Box = this->Tree.BoxOf(r);
-      axis = this->Cell.Examine(leaf.Box, patch, leaf.Range, leaf.Error);
+      axis = this->Cell.Examine(patch, leaf);
       if (axis >= 0 && std::int64_t(this->Out.Leaves.size()) >= this->MaximumLeaves)
       {
         this->Out.Capped = true;
@@ -487,6 +487,20 @@ void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain,
     this->Capped = this->Capped || trees[k].Capped;
     trees[k] = Subtree();
   }
+}
+
+bool SegmentTouchesBox(const Vec2& a, const Vec2& b, const ParameterBox& box)
+{
+  if (std::max(a[0], b[0]) < box.U0 || std::min(a[0], b[0]) > box.U1 ||
+    std::max(a[1], b[1]) < box.V0 || std::min(a[1], b[1]) > box.V1)
+  {
+    return false;
+  }
+  // Separating axis: the segment's own normal.
+  const Vec2 d = b - a;
+  const Vec2 middle(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1));
+  const double distance = std::abs(d[0] * (middle[1] - a[1]) - d[1] * (middle[0] - a[0]));
+  return distance <= 0.5 * (std::abs(d[0]) * box.B() + std::abs(d[1]) * box.A());
 }
 
 } // namespace nurbs

@@ -25,7 +25,9 @@ struct TreeLeaf
   LineCode U0 = 0, U1 = 0, V0 = 0, V1 = 0;
   ParameterBox Box;
   CurvatureRange Range;
-  double Error = 0.0; ///< Bound (or estimate) of the deviation of the cell's triangles.
+  double Height = 0.0;  ///< Bound (or estimate) of the surface's height over the two triangles.
+  double Sliding = 0.0; ///< Bound of its sliding along them.
+  int Diagonal = 0;     ///< 0: from (U0, V0) to (U1, V1); 1: from (U1, V0) to (U0, V1).
 };
 
 /// What a tree must reach.
@@ -38,6 +40,9 @@ struct TreeGoal
   double MaximumAngle = 0.0;      ///< Radians; 0: none.
   std::int64_t MaximumLeaves = 2000000;
 };
+
+/// True if the segment a-b touches the closed box.
+bool SegmentTouchesBox(const Vec2& a, const Vec2& b, const ParameterBox& box);
 
 /// The tree over one surface.
 class SurfaceTree
@@ -64,6 +69,17 @@ public:
     if (!this->Nodes.empty())
     {
       this->QueryNode(0, box, use);
+    }
+  }
+
+  /// Calls use(leaf index) for every leaf that the segment a-b comes near: nearer than `margin`
+  /// times the leaf's own size.
+  template <typename F>
+  void QuerySegment(const Vec2& a, const Vec2& b, double margin, F&& use) const
+  {
+    if (!this->Nodes.empty())
+    {
+      this->QuerySegmentNode(0, a, b, margin, use);
     }
   }
 
@@ -98,6 +114,28 @@ private:
     for (int c = 0; c < node.Count; ++c)
     {
       this->QueryNode(node.First + c, box, use);
+    }
+  }
+
+  template <typename F>
+  void QuerySegmentNode(int index, const Vec2& a, const Vec2& b, double margin, F& use) const
+  {
+    const Node& node = this->Nodes[index];
+    const double mu = margin * node.Box.A();
+    const double mv = margin * node.Box.B();
+    if (!SegmentTouchesBox(a, b,
+          { node.Box.U0 - mu, node.Box.U1 + mu, node.Box.V0 - mv, node.Box.V1 + mv }))
+    {
+      return;
+    }
+    if (node.First < 0)
+    {
+      use(node.Count);
+      return;
+    }
+    for (int c = 0; c < node.Count; ++c)
+    {
+      this->QuerySegmentNode(node.First + c, a, b, margin, use);
     }
   }
 

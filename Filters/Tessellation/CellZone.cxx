@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellZone.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+namespace
+{
+constexpr double KeepDistance = 0.35; // Corners of cut cells nearer to a trim line are dropped.
+
+// Distance of p from the segment a-b in units of a cell.
+double UnitDistance(const Vec2& p, const Vec2& a, const Vec2& b, double su, double sv)
+{
+  const Vec2 s(su, sv);
+  const Vec2 d = (b - a).cwiseProduct(s);
+  const Vec2 e = (p - a).cwiseProduct(s);
+  const double length = d.squaredNorm();
+  const double t = length > 0.0 ? std::min(1.0, std::max(0.0, d.dot(e) / length)) : 0.0;
+  return (e - t * d).norm();
+}
+} // namespace
+
+CellZone::CellZone(const SurfaceTree& tree, const TrimRegion& region, double margin)
+  : Tree(tree)
+{
+  const std::vector<TreeLeaf>& leaves = tree.Leaves();
+  const std::vector<std::pair<int, int>> cut = region.CutLeaves(tree, margin);
+  std::vector<char> isCut(leaves.size(), 0);
+  for (const auto& pair : cut)
+  {
+    isCut[pair.first] = 1;
+  }
+  for (std::size_t k = 0; k < leaves.size(); ++k)
+  {
+    const ParameterBox& box = leaves[k].Box;
+    if (!isCut[k] && region.Inside(Vec2(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1))))
+    {
+      this->Whole.push_back(int(k));
+    }
+  }
+  this->Index.reserve(2 * this->Whole.size() + 64);
+  for (int k : this->Whole)
+  {
+    const TreeLeaf& leaf = leaves[k];
+    this->Vertex(leaf.U0, leaf.V0);
+    this->Vertex(leaf.U1, leaf.V0);
+    this->Vertex(leaf.U0, leaf.V1);
+    this->Vertex(leaf.U1, leaf.V1);
+  }
+  this->KeepCutCorners(region, cut);
+  this->MeasureScale(cut);
+}
+
+int CellZone::Vertex(LineCode u, LineCode v)
+{
+  const auto found = this->Index.emplace(Key{ u, v }, int(this->Keys.size()));
+  if (found.second)
+  {
+    this->Keys.push_back({ u, v });
+    this->Vertices.emplace_back(this->Tree.Parameter(0, u), this->Tree.Parameter(1, v));
+  }
+  return found.first->second;
+}
+
+void CellZone::KeepCutCorners(
+  const TrimRegion& region, const std::vector<std::pair<int, int>>& cut)
+{
+  const std::vector<TreeLeaf>& leaves = this->Tree.Leaves();
+  std::unordered_map<Key, bool, Hash> keep;
+  std::vector<Key> order;
+  for (std::size_t begin = 0; begin < cut.size();)
+  {
+    std::size_t end = begin;
+    while (end < cut.size() && cut[end].first == cut[begin].first)
+    {
+      ++end;
+    }
+    const TreeLeaf& leaf = leaves[cut[begin].first];
+    const LineCode us[2] = { leaf.U0, leaf.U1 };
+    const LineCode vs[2] = { leaf.V0, leaf.V1 };
+    for (int c = 0; c < 4; ++c)
+    {
+      const Key key{ us[c & 1], vs[c >> 1] };
+      if (this->Index.count(key))
+      {
+        continue;
+      }
+      const auto found = keep.emplace(key, true);
+      if (found.second)
+      {
+        order.push_back(key);
+      }
+      const Vec2 p(this->Tree.Parameter(0, key.U), this->Tree.Parameter(1, key.V));
+      for (std::size_t k = begin; k < end && found.first->second; ++k)
+      {
+        const auto& side = region.Segments()[cut[k].second];
+        found.first->second = UnitDistance(p, region.Points()[side.first],
+                                region.Points()[side.second], 1.0 / leaf.Box.A(),
+                                1.0 / leaf.Box.B()) >= KeepDistance;
+      }
+    }
+    begin = end;
+  }
+  for (const Key& key : order)
+  {
+    const Vec2 p(this->Tree.Parameter(0, key.U), this->Tree.Parameter(1, key.V));
+    if (keep[key] && region.Inside(p))
+    {
+      this->Free.push_back(this->Vertex(key.U, key.V));
+    }
+  }
+}
+
+void CellZone::MeasureScale(const std::vector<std::pair<int, int>>& cut)
+{
+  const std::vector<TreeLeaf>& leaves = this->Tree.Leaves();
+  double su = 0.0;
+  double sv = 0.0;
+  int last = -1;
+  for (const auto& pair : cut)
+  {
+    if (pair.first != last)
+    {
+      last = pair.first;
+      su += 1.0 / leaves[last].Box.A();
+      sv += 1.0 / leaves[last].Box.B();
+    }
+  }
+  if (su > 0.0 && sv > 0.0)
+  {
+    this->Factor = Vec2(1.0, sv / su) * (su / std::max(su, sv));
+  }
+}
+
+void CellZone::TriangulateWhole()
+{
+  const int n = int(this->Keys.size());
+  this->ByUV.resize(n);
+  for (int k = 0; k < n; ++k)
+  {
+    this->ByUV[k] = k;
+  }
+  this->ByVU = this->ByUV;
+  const std::vector<Key>& keys = this->Keys;
+  std::sort(this->ByUV.begin(), this->ByUV.end(), [&](int a, int b) {
+    return keys[a].U != keys[b].U ? keys[a].U < keys[b].U : keys[a].V < keys[b].V;
+  });
+  std::sort(this->ByVU.begin(), this->ByVU.end(), [&](int a, int b) {
+    return keys[a].V != keys[b].V ? keys[a].V < keys[b].V : keys[a].U < keys[b].U;
+  });
+  std::vector<std::pair<int, int>> directed;
+  std::vector<int> polygon;
+  std::vector<int> lower;
+  std::vector<int> upper;
+  for (int k : this->Whole)
+  {
+    const TreeLeaf& leaf = this->Tree.Leaves()[k];
+    this->Polygon(leaf, polygon, lower, upper);
+    const int m = int(polygon.size());
+    for (int i = 0; i < m; ++i)
+    {
+      directed.emplace_back(polygon[i], polygon[(i + 1) % m]);
+    }
+    if (m == 4)
+    {
+      const int* c = polygon.data();
+      if (leaf.Diagonal == 0)
+      {
+        this->Result.push_back({ { c[0], c[1], c[2] }, k, true });
+        this->Result.push_back({ { c[0], c[2], c[3] }, k, true });
+      }
+      else
+      {
+        this->Result.push_back({ { c[0], c[1], c[3] }, k, true });
+        this->Result.push_back({ { c[1], c[2], c[3] }, k, true });
+      }
+    }
+    else
+    {
+      this->Monotone(k, lower, upper);
+    }
+  }
+  // Sides without a partner face the border zone.
+  const auto key = [](const std::pair<int, int>& s) { return std::minmax(s.first, s.second); };
+  std::sort(directed.begin(), directed.end(),
+    [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < directed.size();)
+  {
+    if (k + 1 < directed.size() && key(directed[k]) == key(directed[k + 1]))
+    {
+      k += 2;
+      continue;
+    }
+    this->Sides.emplace_back(directed[k].second, directed[k].first);
+    ++k;
+  }
+}
+
+// The cell's outline, counter-clockwise from (U0, V0), and its chains by ascending (u, v): `lower`
+// from (U0, V0) to (U1, V1) along the bottom and right sides, `upper` along the left and top ones.
+void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
+  std::vector<int>& upper) const
+{
+  const std::vector<Key>& keys = this->Keys;
+  const auto row = [&](LineCode v, std::vector<int>& out) {
+    auto at = std::lower_bound(this->ByVU.begin(), this->ByVU.end(), Key{ leaf.U0, v },
+      [&](int a, const Key& k) {
+        return keys[a].V != k.V ? keys[a].V < k.V : keys[a].U < k.U;
+      });
+    for (; at != this->ByVU.end() && keys[*at].V == v && keys[*at].U <= leaf.U1; ++at)
+    {
+      out.push_back(*at);
+    }
+  };
+  const auto column = [&](LineCode u, std::vector<int>& out) {
+    auto at = std::lower_bound(this->ByUV.begin(), this->ByUV.end(), Key{ u, leaf.V0 },
+      [&](int a, const Key& k) {
+        return keys[a].U != k.U ? keys[a].U < k.U : keys[a].V < k.V;
+      });
+    for (; at != this->ByUV.end() && keys[*at].U == u && keys[*at].V <= leaf.V1; ++at)
+    {
+      out.push_back(*at);
+    }
+  };
+  lower.clear();
+  upper.clear();
+  row(leaf.V0, lower);
+  lower.pop_back();
+  column(leaf.U1, lower);
+  column(leaf.U0, upper);
+  upper.pop_back();
+  row(leaf.V1, upper);
+  polygon.assign(lower.begin(), lower.end());
+  for (std::size_t k = upper.size() - 1; k-- > 1;)
+  {
+    polygon.push_back(upper[k]);
+  }
+}
+
+// Linear-time triangulation of a convex cell with vertices on its sides: the sweep for monotone
+// polygons, in (u, v) order. Collinear triples never make a triangle.
+void CellZone::Monotone(
+  int leaf, const std::vector<int>& lower, const std::vector<int>& upper)
+{
+  const std::vector<Key>& keys = this->Keys;
+  const auto before = [&](int a, int b) {
+    return keys[a].U != keys[b].U ? keys[a].U < keys[b].U : keys[a].V < keys[b].V;
+  };
+  const auto turn = [&](int a, int b, int c) {
+    const Vec2 ab = this->Vertices[b] - this->Vertices[a];
+    const Vec2 ac = this->Vertices[c] - this->Vertices[a];
+    if ((keys[a].U == keys[b].U && keys[b].U == keys[c].U) ||
+      (keys[a].V == keys[b].V && keys[b].V == keys[c].V))
+    {
+      return 0.0;
+    }
+    return ab[0] * ac[1] - ab[1] * ac[0];
+  };
+  const auto emit = [&](int a, int b, int c) {
+    const double t = turn(a, b, c);
+    if (t > 0.0)
+    {
+      this->Result.push_back({ { a, b, c }, leaf, false });
+    }
+    else if (t < 0.0)
+    {
+      this->Result.push_back({ { a, c, b }, leaf, false });
+    }
+  };
+  struct Item
+  {
+    int Vertex;
+    bool Upper;
+  };
+  std::vector<Item> order;
+  std::size_t i = 0;
+  std::size_t j = 1; // upper[0] == lower[0], upper.back() == lower.back()
+  while (i < lower.size())
+  {
+    if (j + 1 < upper.size() && before(upper[j], lower[i]))
+    {
+      order.push_back({ upper[j++], true });
+    }
+    else
+    {
+      order.push_back({ lower[i++], false });
+    }
+  }
+  std::vector<Item> stack{ order[0], order[1] };
+  for (std::size_t k = 2; k < order.size(); ++k)
+  {
+    const Item v = order[k];
+    const bool last = k + 1 == order.size();
+    if (v.Upper != stack.back().Upper || last)
+    {
+      for (std::size_t s = 0; s + 1 < stack.size(); ++s)
+      {
+        emit(stack[s].Vertex, stack[s + 1].Vertex, v.Vertex);
+      }
+      stack.assign({ stack.back(), v });
+      continue;
+    }
+    while (stack.size() >= 2)
+    {
+      const int a = stack[stack.size() - 2].Vertex;
+      const int b = stack.back().Vertex;
+      const double t = turn(a, b, v.Vertex);
+      if (v.Upper ? t >= 0.0 : t <= 0.0)
+      {
+        break;
+      }
+      emit(a, b, v.Vertex);
+      stack.pop_back();
+    }
+    stack.push_back(v);
+  }
+}
+
+} // namespace nurbs

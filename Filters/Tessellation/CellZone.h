@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file CellZone.h
+/// @brief The cells of a surface tree against a trimmed region: whole, cut or outside.
+#pragma once
+
+#include "TrimRegion.h"
+
+#include <unordered_map>
+
+namespace nurbs
+{
+
+/// Sorts a tree's leaves, triangulates the whole ones and tells what the border zone needs.
+class CellZone
+{
+public:
+  /// A triangle of a whole cell; corners index Points(), counter-clockwise in (u, v).
+  struct Triangle
+  {
+    int Corner[3];
+    int Leaf;
+    bool Whole; ///< One of the leaf's own two triangles (no T-vertex on its sides).
+  };
+
+  /// @param margin leaves nearer to a trim line than this share of their size count as cut.
+  CellZone(const SurfaceTree& tree, const TrimRegion& region, double margin);
+
+  /// Parameters of all vertices: corners of whole cells, and corners of cut cells well inside.
+  const std::vector<Vec2>& Points() const { return this->Vertices; }
+  /// Triangulates the whole cells, with the T-vertices on their sides.
+  void TriangulateWhole();
+  const std::vector<Triangle>& Triangles() const { return this->Result; }
+  /// Sides of whole cells that face the border zone, directed with the zone on their left.
+  const std::vector<std::pair<int, int>>& OpenSides() const { return this->Sides; }
+  /// Vertices inside the border zone.
+  const std::vector<int>& FreePoints() const { return this->Free; }
+  /// Factors that make a mean cut (or any) cell a unit square.
+  const Vec2& Scale() const { return this->Factor; }
+
+private:
+  struct Key
+  {
+    LineCode U, V;
+    bool operator==(const Key& o) const { return this->U == o.U && this->V == o.V; }
+  };
+  struct Hash
+  {
+    std::size_t operator()(const Key& k) const
+    {
+      return std::size_t(k.U) * 0x9E3779B97F4A7C15ull ^ (std::size_t(k.V) + 0x7F4A7C15ull) *
+        0xC2B2AE3D27D4EB4Full;
+    }
+  };
+  int Vertex(LineCode u, LineCode v);
+  void KeepCutCorners(const TrimRegion& region, const std::vector<std::pair<int, int>>& cut);
+  void MeasureScale(const std::vector<std::pair<int, int>>& cut);
+  void Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
+    std::vector<int>& upper) const;
+  void Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper);
+
+  const SurfaceTree& Tree;
+  std::vector<int> Whole; ///< Leaves.
+  std::unordered_map<Key, int, Hash> Index;
+  std::vector<Key> Keys;
+  std::vector<Vec2> Vertices;
+  std::vector<int> Free;
+  std::vector<Triangle> Result;
+  std::vector<std::pair<int, int>> Sides;
+  std::vector<int> ByUV, ByVU; ///< Vertices sorted by (u, v) and by (v, u).
+  Vec2 Factor = Vec2(1.0, 1.0);
+};
+
+} // namespace nurbs

@@ -1,0 +1,726 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FaceTessellator.h"
+
+#include "BorderTriangulation.h"
+#include "CellError.h"
+#include "CellZone.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace nurbs
+{
+
+namespace
+{
+constexpr double CutMargin = 0.08; // Leaves this near to a trim line (in their size) count as cut.
+
+class FaceBuilder
+{
+public:
+  FaceBuilder(const FaceJob& job, std::vector<SplitRequest>& requests)
+    : Job(job)
+    , Data(*job.Data)
+    , TheFace(job.Data->Faces[job.Face])
+    , Requests(requests)
+    , Evaluator(job.Bound->Evaluator())
+  {
+  }
+
+  FaceMesh Run()
+  {
+    this->MakeLoops();
+    if (!this->Requests.empty() || this->Loops.empty())
+    {
+      return this->Finish();
+    }
+    TrimRegion region(this->Loops);
+    this->AddBoundary();
+    const bool done = this->Job.Tree ? this->Curved(region) : this->Planar(region);
+    if (done && this->Requests.empty())
+    {
+      this->Certify();
+    }
+    return this->Finish();
+  }
+
+private:
+  // --- Step 1: the loops as directed polygons -------------------------------------------------
+
+  void MakeLoops()
+  {
+    const std::int64_t end = this->TheFace.FirstLoop + this->TheFace.LoopCount;
+    for (std::int64_t l = this->TheFace.FirstLoop; l < end; ++l)
+    {
+      std::vector<BoundaryVertex> loop;
+      const TrimLoop& source = this->Data.Loops[l];
+      for (std::int64_t k = 0; k < source.CurveCount; ++k)
+      {
+        this->AppendCurve(source.FirstCurve + k, loop);
+      }
+      this->CloseLoop(loop);
+      if (this->IsLoopThin(loop))
+      {
+        this->RequestMiddles(loop);
+        if (this->Job.LastPass)
+        {
+          this->Note(FaceStatus::Repaired, "a loop without area was dropped");
+        }
+        continue;
+      }
+      this->Loops.push_back(std::move(loop));
+    }
+    if (this->Loops.empty() && this->Requests.empty())
+    {
+      this->Note(FaceStatus::Failed, "its loops enclose no area");
+    }
+  }
+
+  void AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loop)
+  {
+    const TrimCurve& curve = this->Data.TrimCurves[index];
+    const EdgePolyline& edge = (*this->Job.Edges)[curve.Edge];
+    const Interval domain{ edge.Parameters.front(), edge.Parameters.back() };
+    std::vector<double> ts = edge.Parameters;
+    if (edge.Degenerate)
+    {
+      this->PoleParameters(curve, domain, ts);
+    }
+    const int n = int(ts.size());
+    std::vector<BoundaryVertex> part(n);
+    for (int k = 0; k < n; ++k)
+    {
+      const int i = curve.Reversed ? n - 1 - k : k;
+      part[k].UV = this->Clamp(Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i])));
+      part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
+      part[k].Edge = curve.Edge;
+      part[k].T0 = ts[i];
+      part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
+    }
+    if (!loop.empty() && this->SameSpot(loop.back().UV, part.front().UV))
+    {
+      loop.pop_back();
+    }
+    else if (!loop.empty())
+    {
+      loop.back().Edge = -1; // A jump along a pole, or a gap that is closed by a straight segment.
+      this->NoteGap(loop.back(), part.front());
+    }
+    loop.insert(loop.end(), part.begin(), part.end());
+  }
+
+  // A degenerate side has one point, but as many parameters as the surface has lines there.
+  void PoleParameters(const TrimCurve& curve, const Interval& domain, std::vector<double>& ts)
+  {
+    if (!this->Job.Tree)
+    {
+      return;
+    }
+    const Vec2 a = Evaluate(curve.Geometry, TrimParameter(curve, domain, domain.Min));
+    const Vec2 b = Evaluate(curve.Geometry, TrimParameter(curve, domain, domain.Max));
+    const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
+    std::vector<double> inner;
+    for (double line : this->Job.Tree->Lines(d))
+    {
+      const double s = (line - a[d]) / (b[d] - a[d]);
+      if (s > 1e-6 && s < 1.0 - 1e-6)
+      {
+        inner.push_back(domain.Min + s * domain.Length());
+      }
+    }
+    std::sort(inner.begin(), inner.end());
+    ts.insert(ts.begin() + 1, inner.begin(), inner.end());
+  }
+
+  Vec2 Clamp(const Vec2& uv) const
+  {
+    Vec2 p = uv;
+    for (int d = 0; d < 2; ++d)
+    {
+      const Interval domain = this->TheFace.Geometry.Domain(d);
+      p[d] = domain.Clamp(p[d]);
+      const double eps = 1e-11 * domain.Length();
+      if (this->Job.Tree)
+      {
+        for (double crease : this->Job.Tree->Creases(d))
+        {
+          if (std::abs(p[d] - crease) < 1e3 * eps)
+          {
+            p[d] = crease;
+          }
+        }
+      }
+    }
+    return p;
+  }
+
+  bool SameSpot(const Vec2& a, const Vec2& b) const
+  {
+    const SurfaceView& s = this->TheFace.Geometry;
+    return std::abs(a[0] - b[0]) <= 1e-5 * s.Domain(0).Length() &&
+      std::abs(a[1] - b[1]) <= 1e-5 * s.Domain(1).Length();
+  }
+
+  void NoteGap(const BoundaryVertex& a, const BoundaryVertex& b)
+  {
+    const double gap = (a.X - b.X).norm();
+    if (gap > this->Job.Tolerance)
+    {
+      this->Note(FaceStatus::Repaired, "a loop's gap of " + std::to_string(gap) + " was closed");
+    }
+  }
+
+  void CloseLoop(std::vector<BoundaryVertex>& loop)
+  {
+    if (loop.size() > 1 && this->SameSpot(loop.back().UV, loop.front().UV))
+    {
+      loop.pop_back();
+    }
+    std::vector<BoundaryVertex> distinct;
+    for (const BoundaryVertex& v : loop)
+    {
+      if (distinct.empty() || distinct.back().UV != v.UV)
+      {
+        distinct.push_back(v);
+      }
+    }
+    while (distinct.size() > 1 && distinct.back().UV == distinct.front().UV)
+    {
+      distinct.pop_back();
+    }
+    loop.swap(distinct);
+  }
+
+  // A loop whose polygon collapsed although its curves enclose something.
+  bool IsLoopThin(const std::vector<BoundaryVertex>& loop) const
+  {
+    if (loop.size() < 3)
+    {
+      return true;
+    }
+    Box2 box;
+    double area = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      const Vec2 a = loop[k].UV - loop[0].UV;
+      const Vec2 b = loop[(k + 1) % loop.size()].UV - loop[0].UV;
+      area += a[0] * b[1] - a[1] * b[0];
+      box.extend(loop[k].UV);
+    }
+    return std::abs(area) <= 1e-13 * box.diagonal().squaredNorm();
+  }
+
+  void RequestMiddles(const std::vector<BoundaryVertex>& loop)
+  {
+    for (const BoundaryVertex& v : loop)
+    {
+      if (v.Edge >= 0 && !(*this->Job.Edges)[v.Edge].Degenerate && !this->Job.LastPass)
+      {
+        this->Requests.push_back({ v.Edge, 0.5 * (v.T0 + v.T1) });
+      }
+    }
+  }
+
+  void Note(FaceStatus status, const std::string& message)
+  {
+    this->Mesh.Status = std::max(this->Mesh.Status, status);
+    this->Mesh.Message += (this->Mesh.Message.empty() ? "" : "; ") + message;
+  }
+
+  void AddBoundary()
+  {
+    for (const auto& loop : this->Loops)
+    {
+      for (const BoundaryVertex& v : loop)
+      {
+        this->Mesh.UV.push_back(v.UV);
+        this->Mesh.Points.push_back(v.X);
+        this->Segments.push_back(&v);
+      }
+    }
+    this->BoundaryCount = int(this->Mesh.UV.size());
+    this->EvaluateFrom(0, true);
+  }
+
+  // Points (unless they are given) and normals of vertices from `first` on.
+  void EvaluateFrom(std::size_t first, bool pointsGiven)
+  {
+    const std::int64_t n = std::int64_t(this->Mesh.UV.size() - first);
+    std::vector<double> points(3 * n);
+    std::vector<double> normals(3 * n);
+    const auto body = [&](std::int64_t begin, std::int64_t end) {
+      SurfaceEvaluator evaluator(this->Job.Bound->Evaluator());
+      evaluator.Batch(this->Mesh.UV.data() + first + begin, end - begin, points.data() + 3 * begin,
+        normals.data() + 3 * begin);
+    };
+    if (n > 8192)
+    {
+      this->Job.Parallel(0, n, body);
+    }
+    else
+    {
+      body(0, n);
+    }
+    this->Mesh.Points.resize(this->Mesh.UV.size());
+    this->Mesh.Normals.resize(this->Mesh.UV.size());
+    for (std::int64_t k = 0; k < n; ++k)
+    {
+      const Vec3 x = Eigen::Map<const Vec3>(points.data() + 3 * k);
+      this->Mesh.Normals[first + k] = Eigen::Map<const Vec3>(normals.data() + 3 * k);
+      if (pointsGiven)
+      {
+        this->Gap = std::max(this->Gap, (x - this->Mesh.Points[first + k]).norm());
+      }
+      else
+      {
+        this->Mesh.Points[first + k] = x;
+      }
+    }
+  }
+
+  // --- Step 2: planar faces: the loops in their plane -------------------------------------------
+
+  bool Planar(const TrimRegion& region)
+  {
+    Vec3 normal = Vec3::Zero();
+    double distance = 0.0;
+    this->Job.Bound->IsPlanar(1e300, normal, distance);
+    this->Flatness = distance;
+    Vec3 e1 = normal.unitOrthogonal();
+    Vec3 e2 = normal.cross(e1);
+    std::vector<Vec2> flat;
+    double area = 0.0;
+    const auto project = [&]() {
+      flat.clear();
+      const Vec3 o = this->Mesh.Points[0];
+      for (const Vec3& x : this->Mesh.Points)
+      {
+        flat.emplace_back(e1.dot(x - o), e2.dot(x - o));
+      }
+      area = 0.0;
+      for (const auto& side : region.Segments())
+      {
+        const Vec2& a = flat[side.first];
+        const Vec2& b = flat[side.second];
+        area += a[0] * b[1] - a[1] * b[0];
+      }
+    };
+    project();
+    if ((area < 0.0) != (region.Area2() < 0.0))
+    {
+      e2 = -e2;
+      project();
+    }
+    this->Scale = Vec2(1.0, 1.0);
+    return this->FillBorder(region, flat, {}, {});
+  }
+
+  // --- Step 3: curved faces: whole cells, and the zone between them and the trim lines -----------
+
+  bool Curved(const TrimRegion& region)
+  {
+    CellZone zone(*this->Job.Tree, region, CutMargin);
+    this->Scale = zone.Scale();
+    const int first = int(this->Mesh.UV.size());
+    for (const Vec2& uv : zone.Points())
+    {
+      this->Mesh.UV.push_back(uv);
+    }
+    this->EvaluateFrom(first, false);
+    zone.TriangulateWhole();
+    for (const CellZone::Triangle& t : zone.Triangles())
+    {
+      this->Mesh.Triangles.insert(
+        this->Mesh.Triangles.end(), { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first });
+      this->Leaf.push_back(t.Whole ? t.Leaf : -1 - t.Leaf);
+    }
+    std::vector<Vec2> flat(this->Mesh.UV.size());
+    for (std::size_t k = 0; k < flat.size(); ++k)
+    {
+      flat[k] = this->Mesh.UV[k].cwiseProduct(this->Scale);
+    }
+    std::vector<std::pair<int, int>> sides;
+    for (const auto& side : zone.OpenSides())
+    {
+      sides.emplace_back(side.first + first, side.second + first);
+    }
+    return this->FillBorder(region, flat, sides, zone.FreePoints());
+  }
+
+  // The zone with `flat` coordinates (one a vertex so far): loops, sides of whole cells, and the
+  // vertices `free` (indices relative to the boundary's end).
+  bool FillBorder(const TrimRegion& region, const std::vector<Vec2>& flat,
+    const std::vector<std::pair<int, int>>& sides, const std::vector<int>& free)
+  {
+    BorderTriangulation border;
+    std::vector<int> idOf(flat.size(), -1);
+    std::vector<int> vertexOf;
+    const auto add = [&](int vertex, const Vec2& p) {
+      const int id = border.AddPoint(p);
+      if (id == int(vertexOf.size()))
+      {
+        vertexOf.push_back(vertex);
+      }
+      return id;
+    };
+    for (int k = 0; k < this->BoundaryCount; ++k)
+    {
+      idOf[k] = add(k, flat[k]);
+    }
+    bool crossing = false;
+    for (const auto& side : region.Segments())
+    {
+      if (!border.AddSegment(idOf[side.first], idOf[side.second]))
+      {
+        crossing = true;
+        this->RequestSplit(side.first);
+      }
+    }
+    if (crossing && this->RequestAround(region))
+    {
+      return false;
+    }
+    for (const auto& side : sides)
+    {
+      for (int end : { side.first, side.second })
+      {
+        idOf[end] = idOf[end] < 0 ? add(end, flat[end]) : idOf[end];
+      }
+    }
+    for (const auto& side : sides)
+    {
+      border.AddSegment(idOf[side.first], idOf[side.second]);
+    }
+    for (int k : free)
+    {
+      const int vertex = k + this->BoundaryCount;
+      idOf[vertex] = add(vertex, flat[vertex]);
+    }
+    this->AddCreases(border, vertexOf, region);
+    this->Refine(border, vertexOf);
+    return true;
+  }
+
+  void RequestSplit(int segment)
+  {
+    const BoundaryVertex& v = *this->Segments[segment];
+    if (v.Edge >= 0 && !this->Job.LastPass && !(*this->Job.Edges)[v.Edge].Degenerate)
+    {
+      this->Requests.push_back({ v.Edge, 0.5 * (v.T0 + v.T1) });
+    }
+  }
+
+  // Polylines that cross although their curves do not are too coarse: finer ones where they meet.
+  bool RequestAround(const TrimRegion& region)
+  {
+    const std::vector<Vec2>& p = region.Points();
+    const auto& sides = region.Segments();
+    const std::size_t asked = this->Requests.size();
+    if (this->Job.LastPass)
+    {
+      this->Note(FaceStatus::Repaired, "its loops cross; the crossing parts are joined as they are");
+      return false;
+    }
+    for (std::size_t s = 0; s < asked; ++s)
+    {
+      const SplitRequest request = this->Requests[s];
+      for (std::size_t k = 0; k < sides.size(); ++k)
+      {
+        const BoundaryVertex& v = *this->Segments[sides[k].first];
+        if (v.Edge != request.Edge || 0.5 * (v.T0 + v.T1) != request.T)
+        {
+          continue;
+        }
+        const Vec2& a = p[sides[k].first];
+        const Vec2& b = p[sides[k].second];
+        ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
+          std::max(a[1], b[1]) };
+        for (const auto& other : sides)
+        {
+          if (SegmentTouchesBox(p[other.first], p[other.second], box))
+          {
+            this->RequestSplit(other.first);
+          }
+        }
+      }
+    }
+    return !this->Requests.empty();
+  }
+
+  // Vertices along every crease, joined where the face goes on between them.
+  void AddCreases(
+    BorderTriangulation& border, const std::vector<int>& vertexOf, const TrimRegion& region)
+  {
+    if (!this->Job.Tree)
+    {
+      return;
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      for (double crease : this->Job.Tree->Creases(d))
+      {
+        std::vector<std::pair<double, int>> on;
+        for (std::size_t id = 0; id < vertexOf.size(); ++id)
+        {
+          const Vec2& uv = this->Mesh.UV[vertexOf[id]];
+          if (uv[d] == crease)
+          {
+            on.emplace_back(uv[1 - d], int(id));
+          }
+        }
+        std::sort(on.begin(), on.end());
+        for (std::size_t k = 0; k + 1 < on.size(); ++k)
+        {
+          Vec2 middle;
+          middle[d] = crease;
+          middle[1 - d] = 0.5 * (on[k].first + on[k + 1].first);
+          if (!border.IsConstrained(on[k].second, on[k + 1].second) && region.Inside(middle))
+          {
+            border.AddCrease(on[k].second, on[k + 1].second);
+          }
+        }
+      }
+    }
+  }
+
+  // Adds vertices to the border zone until every triangle is good enough.
+  void Refine(BorderTriangulation& border, std::vector<int>& vertexOf)
+  {
+    const std::size_t base = this->Mesh.Triangles.size();
+    std::vector<std::array<int, 3>> triangles;
+    for (int pass = 0;; ++pass)
+    {
+      border.Triangles(triangles);
+      this->Mesh.Triangles.resize(base);
+      this->Leaf.resize(base / 3);
+      for (auto& t : triangles)
+      {
+        for (int& id : t)
+        {
+          id = vertexOf[id];
+          this->Mesh.Triangles.push_back(id);
+        }
+        this->Leaf.push_back(NoLeaf);
+      }
+      if (!this->Job.Tree || pass == 16)
+      {
+        return;
+      }
+      const std::size_t before = this->Mesh.UV.size();
+      this->SplitFailing(triangles, border, vertexOf);
+      if (this->Mesh.UV.size() == before)
+      {
+        return;
+      }
+      this->EvaluateFrom(before, false);
+    }
+  }
+
+  void SplitFailing(const std::vector<std::array<int, 3>>& triangles, BorderTriangulation& border,
+    std::vector<int>& vertexOf)
+  {
+    std::set<std::pair<int, int>> split;
+    std::vector<int> idOf(this->Mesh.UV.size(), -1);
+    for (std::size_t id = 0; id < vertexOf.size(); ++id)
+    {
+      idOf[vertexOf[id]] = int(id);
+    }
+    for (const auto& t : triangles)
+    {
+      if (this->TriangleError(t.data(), NoLeaf) <= this->Limit())
+      {
+        continue;
+      }
+      double longest = 0.0;
+      std::pair<int, int> edge(-1, -1);
+      for (int i = 0; i < 3; ++i)
+      {
+        const int a = t[i];
+        const int b = t[(i + 1) % 3];
+        const double length =
+          (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseProduct(this->Scale).norm();
+        if (length > longest && !border.IsConstrained(idOf[a], idOf[b]))
+        {
+          longest = length;
+          edge = std::minmax(a, b);
+        }
+      }
+      Vec2 p;
+      if (edge.first < 0)
+      {
+        p = (this->Mesh.UV[t[0]] + this->Mesh.UV[t[1]] + this->Mesh.UV[t[2]]) / 3.0;
+      }
+      else if (!split.insert(edge).second)
+      {
+        continue;
+      }
+      else
+      {
+        p = 0.5 * (this->Mesh.UV[edge.first] + this->Mesh.UV[edge.second]);
+      }
+      const int id = border.AddPoint(p.cwiseProduct(this->Scale));
+      if (id == int(vertexOf.size()))
+      {
+        vertexOf.push_back(int(this->Mesh.UV.size()));
+        this->Mesh.UV.push_back(p);
+      }
+    }
+  }
+
+  // --- Step 4: certification --------------------------------------------------------------------
+
+  double Limit() const
+  {
+    return this->Job.Tolerance - std::min(this->Gap, 0.5 * this->Job.Tolerance);
+  }
+
+  // Bound of the surface's distance from a triangle; `leaf`: see Leaf.
+  double TriangleError(const int* t, int leaf) const
+  {
+    const Vec3& x0 = this->Mesh.Points[t[0]];
+    const Vec3& x1 = this->Mesh.Points[t[1]];
+    const Vec3& x2 = this->Mesh.Points[t[2]];
+    if (x0 == x1 || x1 == x2 || x2 == x0)
+    {
+      return 0.0; // At a pole: no triangle comes out.
+    }
+    Vec3 n = (x1 - x0).cross(x2 - x0);
+    const double area = n.norm();
+    const double longest =
+      std::max({ (x1 - x0).squaredNorm(), (x2 - x1).squaredNorm(), (x0 - x2).squaredNorm() });
+    const bool thin = area <= 1e-10 * longest;
+    n = thin ? Vec3(Vec3::Zero()) : Vec3(n / area);
+    double slope = 0.0;
+    bool folded = false;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec3& m = this->Mesh.Normals[t[i]];
+      const double c = m.dot(n);
+      folded = folded || c < 0.0;
+      slope = c > 0.5 ? std::max(slope, 2.0 * std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0))) : 1.0;
+      if (c <= 0.5)
+      {
+        slope = 1.0;
+        break;
+      }
+    }
+    const std::vector<TreeLeaf>& leaves = this->Job.Tree->Leaves();
+    if (leaf >= 0)
+    {
+      return SurfaceDistance(leaves[leaf].Height, leaves[leaf].Sliding, slope);
+    }
+    ParameterBox box{ 1e300, -1e300, 1e300, -1e300 };
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec2& p = this->Mesh.UV[t[i]];
+      box = { std::min(box.U0, p[0]), std::max(box.U1, p[0]), std::min(box.V0, p[1]),
+        std::max(box.V1, p[1]) };
+    }
+    const double a = box.A();
+    const double b = box.B();
+    double height = 0.0;
+    double sliding = 0.0;
+    double weight = 1e300;
+    const auto use = [&](int k) {
+      const CurvatureRange& range = leaves[k].Range;
+      if (!thin)
+      {
+        height = std::max(height, HeightNumerator(range, a, b, n, x0));
+        weight = std::min(weight, range.MinWeight);
+      }
+      sliding = std::max(sliding, DeviationBound(range, a, b));
+    };
+    if (leaf == NoLeaf)
+    {
+      const ParameterBox inner{ box.U0 + 1e-7 * a, box.U1 - 1e-7 * a, box.V0 + 1e-7 * b,
+        box.V1 - 1e-7 * b };
+      this->Job.Tree->Query(inner, use);
+    }
+    else
+    {
+      use(-1 - leaf);
+    }
+    return thin ? sliding
+                : std::min(sliding, SurfaceDistance(height / weight, sliding, slope));
+  }
+
+  void Certify()
+  {
+    double worst = this->Flatness;
+    if (this->Job.Tree)
+    {
+      for (std::size_t k = 0; k < this->Leaf.size(); ++k)
+      {
+        worst = std::max(worst, this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]));
+      }
+    }
+    double edges = 0.0;
+    for (const BoundaryVertex* v : this->Segments)
+    {
+      if (v->Edge >= 0)
+      {
+        const EdgePolyline& edge = (*this->Job.Edges)[v->Edge];
+        edges = std::max(edges, edge.Error + edge.Gap);
+      }
+    }
+    this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);
+  }
+
+  // Drops triangles at poles and turns reversed faces.
+  FaceMesh Finish()
+  {
+    std::vector<int>& t = this->Mesh.Triangles;
+    const std::vector<Vec3>& x = this->Mesh.Points;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k + 2 < t.size(); k += 3)
+    {
+      const int a = t[k];
+      const int b = t[k + 1];
+      const int c = t[k + 2];
+      if (x[a] == x[b] || x[b] == x[c] || x[c] == x[a])
+      {
+        continue;
+      }
+      t[kept] = a;
+      t[kept + 1] = this->TheFace.Reversed ? c : b;
+      t[kept + 2] = this->TheFace.Reversed ? b : c;
+      kept += 3;
+    }
+    t.resize(kept);
+    if (this->TheFace.Reversed)
+    {
+      for (Vec3& n : this->Mesh.Normals)
+      {
+        n = -n;
+      }
+    }
+    return std::move(this->Mesh);
+  }
+
+  static constexpr int NoLeaf = -2147483647 - 1;
+
+  const FaceJob& Job;
+  const Model& Data;
+  const Face& TheFace;
+  std::vector<SplitRequest>& Requests;
+  SurfaceEvaluator Evaluator;
+  FaceMesh Mesh;
+  std::vector<std::vector<BoundaryVertex>> Loops;
+  std::vector<const BoundaryVertex*> Segments; ///< The segment that starts at each boundary vertex.
+  int BoundaryCount = 0;
+  Vec2 Scale = Vec2(1.0, 1.0);
+  /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside
+  /// that leaf; NoLeaf: anywhere.
+  std::vector<int> Leaf;
+  double Gap = 0.0;
+  double Flatness = 0.0;
+};
+} // namespace
+
+FaceMesh TessellateFace(const FaceJob& job, std::vector<SplitRequest>& requests)
+{
+  return FaceBuilder(job, requests).Run();
+}
+
+} // namespace nurbs

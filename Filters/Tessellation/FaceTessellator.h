@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file FaceTessellator.h
+/// @brief One trimmed face to triangles, given its surface tree and its edges' polylines.
+///
+/// Cells that no trim line comes near are triangulated for themselves (Balazs section 7, convex
+/// polygons in linear time); the zone between them and the trim polylines by a constrained Delaunay
+/// triangulation. Every triangle is then certified by the bound of SurfaceBound.h; those that fail
+/// get another vertex.
+#pragma once
+
+#include "EdgeDiscretizer.h"
+#include "TrimRegion.h"
+
+namespace nurbs
+{
+
+/// A parameter at which an edge must have a vertex before a face can be finished.
+struct SplitRequest
+{
+  std::int64_t Edge = -1;
+  double T = 0.0;
+};
+
+/// Everything a face's triangulation starts from.
+struct FaceJob
+{
+  const Model* Data = nullptr;
+  std::int64_t Face = -1;
+  const SurfaceBound* Bound = nullptr;
+  const SurfaceTree* Tree = nullptr; ///< Null: the surface is planar.
+  const std::vector<EdgePolyline>* Edges = nullptr;
+  const TessellatorOptions* Options = nullptr;
+  double Tolerance = 0.0;
+  bool LastPass = false; ///< No more requests: repair or report instead.
+  ParallelFor Parallel = SerialFor;
+};
+
+/// Triangulates a face. `requests` receives what its edges need; if any, the mesh is not final.
+FaceMesh TessellateFace(const FaceJob& job, std::vector<SplitRequest>& requests);
+
+} // namespace nurbs

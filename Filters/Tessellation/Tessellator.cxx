@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Tessellator.h"
+
+#include "EdgeDiscretizer.h"
+#include "FaceTessellator.h"
+#include "SurfaceTree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+namespace nurbs
+{
+
+namespace
+{
+constexpr int MaximumPasses = 6;
+
+class ModelTessellator
+{
+public:
+  ModelTessellator(const Model& model, const std::vector<std::string>& faceErrors,
+    const TessellatorOptions& options)
+    : Errors(faceErrors)
+    , Options(options)
+    , Completed(CompleteModel(model, faceErrors))
+    , Data(Completed.Data)
+  {
+  }
+
+  TessellationResult Run()
+  {
+    const std::size_t faces = this->Data.Faces.size();
+    this->Result.Meshes.resize(faces);
+    this->Bounds.resize(faces);
+    this->Trees.resize(faces);
+    this->Contexts.resize(faces);
+    this->Tighten.assign(faces, 1.0);
+    this->FindUses();
+    this->OrderFaces();
+
+    // Step 1: bounds and a tree for every surface.
+    this->ForFaces(this->AllFaces(), 0.0, 0.5, [&](std::int64_t f, const ParallelFor& parallel) {
+      this->PrepareFace(f, parallel);
+    });
+
+    std::vector<std::int64_t> edges(this->Data.Edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e)
+    {
+      edges[e] = std::int64_t(e);
+    }
+    std::vector<std::int64_t> todo = this->AllFaces();
+    this->Polylines.resize(this->Data.Edges.size());
+    this->Extra.resize(this->Data.Edges.size());
+    for (int pass = 0; pass < MaximumPasses && !todo.empty() && !this->Aborted; ++pass)
+    {
+      // Step 2: one polyline an edge. Step 3: every face between them.
+      this->DiscretizeEdges(edges);
+      this->TriangulateFaces(todo, pass, edges);
+    }
+    this->CollectPolylines();
+    this->Result.Aborted = this->Aborted;
+    return std::move(this->Result);
+  }
+
+private:
+  double ToleranceOf(std::int64_t face) const
+  {
+    return this->Options.FaceTolerances.empty() ? this->Options.Tolerance
+                                                : this->Options.FaceTolerances[face];
+  }
+
+  bool IsUsable(std::int64_t face) const { return this->Errors[face].empty(); }
+
+  void FindUses()
+  {
+    this->Uses.resize(this->Data.Edges.size());
+    for (std::size_t f = 0; f < this->Data.Faces.size(); ++f)
+    {
+      if (!this->IsUsable(std::int64_t(f)))
+      {
+        continue;
+      }
+      const Face& face = this->Data.Faces[f];
+      for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+      {
+        const TrimLoop& loop = this->Data.Loops[l];
+        for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+        {
+          this->Uses[this->Data.TrimCurves[c].Edge].push_back({ std::int64_t(f), c });
+        }
+      }
+    }
+  }
+
+  // Large surfaces are worked on by all threads at once, the others one a thread.
+  void OrderFaces()
+  {
+    for (std::size_t f = 0; f < this->Data.Faces.size(); ++f)
+    {
+      if (this->IsUsable(std::int64_t(f)))
+      {
+        const bool large = this->Data.Faces[f].Geometry.Size() > 4096;
+        (large || this->Data.Faces.size() == 1 ? this->Large : this->Small)
+          .push_back(std::int64_t(f));
+      }
+    }
+  }
+
+  std::vector<std::int64_t> AllFaces() const
+  {
+    std::vector<std::int64_t> all = this->Large;
+    all.insert(all.end(), this->Small.begin(), this->Small.end());
+    return all;
+  }
+
+  bool Report(double progress)
+  {
+    if (this->Options.Progress && !this->Options.Progress(progress))
+    {
+      this->Aborted = true;
+    }
+    return !this->Aborted;
+  }
+
+  template <typename F>
+  void ForFaces(const std::vector<std::int64_t>& faces, double from, double to, F&& body)
+  {
+    std::vector<std::int64_t> small;
+    std::atomic<std::int64_t> done{ 0 };
+    const auto step = [&]() {
+      const std::int64_t n = ++done;
+      if (n % 64 == 0 || n == std::int64_t(faces.size()))
+      {
+        this->Report(from + (to - from) * double(n) / double(faces.size()));
+      }
+    };
+    for (std::int64_t f : faces)
+    {
+      if (!std::binary_search(this->Large.begin(), this->Large.end(), f))
+      {
+        small.push_back(f);
+      }
+      else if (!this->Aborted)
+      {
+        body(f, this->Options.Parallel);
+        step();
+      }
+    }
+    this->Options.Parallel(
+      0, std::int64_t(small.size()), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end && !this->Aborted; ++k)
+        {
+          body(small[k], SerialFor);
+          step();
+        }
+      });
+  }
+
+  // The part of the surface's domain that the loops use.
+  ParameterBox UsedDomain(const Face& face) const
+  {
+    const Interval u = face.Geometry.Domain(0);
+    const Interval v = face.Geometry.Domain(1);
+    Box2 box;
+    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const TrimLoop& loop = this->Data.Loops[l];
+      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+      {
+        const CurveView<2>& curve = this->Data.TrimCurves[c].Geometry;
+        for (int i = 0; i < curve.Count; ++i)
+        {
+          box.extend(curve.Point(i));
+        }
+      }
+    }
+    ParameterBox used{ u.Clamp(box.min()[0]), u.Clamp(box.max()[0]), v.Clamp(box.min()[1]),
+      v.Clamp(box.max()[1]) };
+    const auto widen = [](double& low, double& high, const Interval& domain) {
+      if (low - domain.Min < 1e-6 * domain.Length())
+      {
+        low = domain.Min;
+      }
+      if (domain.Max - high < 1e-6 * domain.Length())
+      {
+        high = domain.Max;
+      }
+      if (high - low < 1e-9 * domain.Length())
+      {
+        low = std::max(domain.Min, low - 1e-6 * domain.Length());
+        high = std::min(domain.Max, high + 1e-6 * domain.Length());
+      }
+    };
+    widen(used.U0, used.U1, u);
+    widen(used.V0, used.V1, v);
+    return used;
+  }
+
+  void PrepareFace(std::int64_t f, const ParallelFor& parallel)
+  {
+    const Face& face = this->Data.Faces[f];
+    const double tolerance = this->ToleranceOf(f);
+    this->Bounds[f].reset(new SurfaceBound(face.Geometry));
+    FaceContext& context = this->Contexts[f];
+    context.Bound = this->Bounds[f].get();
+    context.Tolerance = tolerance;
+    Vec3 normal;
+    double distance = 0.0;
+    const bool limits = this->Options.MaximumEdgeLength > 0.0;
+    if (!limits && context.Bound->IsPlanar(1e-3 * tolerance, normal, distance))
+    {
+      context.Tree = nullptr;
+      return;
+    }
+    TreeGoal goal;
+    goal.Tolerance = 0.98 * tolerance * this->Tighten[f];
+    goal.Method = this->Options.Method;
+    goal.Error = this->Options.Error;
+    goal.MaximumEdgeLength = this->Options.MaximumEdgeLength;
+    goal.MaximumAngle = this->Options.MaximumAngle;
+    goal.MaximumLeaves = std::max<std::int64_t>(1, this->Options.MaximumFaceTriangles / 2);
+    this->Trees[f].reset(new SurfaceTree);
+    this->Trees[f]->Build(*context.Bound, this->UsedDomain(face), goal, parallel);
+    context.Tree = this->Trees[f].get();
+  }
+
+  void DiscretizeEdges(const std::vector<std::int64_t>& edges)
+  {
+    this->Options.Parallel(
+      0, std::int64_t(edges.size()), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end && !this->Aborted; ++k)
+        {
+          const std::int64_t e = edges[k];
+          const std::vector<EdgeUse>& uses = this->Uses[e];
+          if (uses.empty())
+          {
+            continue;
+          }
+          double tolerance = 1e300;
+          for (const EdgeUse& use : uses)
+          {
+            tolerance = std::min(tolerance, this->ToleranceOf(use.Face));
+          }
+          this->Polylines[e] = DiscretizeEdge(
+            this->Data, e, uses, this->Contexts, tolerance, this->Options, this->Extra[e]);
+        }
+      });
+  }
+
+  // Triangulates the faces of `todo`; on return `todo` has those that must be done again, and
+  // `edges` the edges that must get more points first.
+  void TriangulateFaces(
+    std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
+  {
+    const bool last = pass + 1 == MaximumPasses;
+    std::vector<std::vector<SplitRequest>> requests(this->Data.Faces.size());
+    this->ForFaces(todo, 0.5 + 0.4 * pass / MaximumPasses, 0.9,
+      [&](std::int64_t f, const ParallelFor& parallel) {
+        FaceJob job;
+        job.Data = &this->Data;
+        job.Face = f;
+        job.Bound = this->Bounds[f].get();
+        job.Tree = this->Contexts[f].Tree;
+        job.Edges = &this->Polylines;
+        job.Options = &this->Options;
+        job.Tolerance = this->ToleranceOf(f);
+        job.LastPass = last;
+        job.Parallel = parallel;
+        this->Result.Meshes[f] = TessellateFace(job, requests[f]);
+      });
+    if (this->Aborted)
+    {
+      return;
+    }
+    std::vector<char> again(this->Data.Faces.size(), 0);
+    std::vector<char> refine(this->Data.Edges.size(), 0);
+    for (std::int64_t f : todo)
+    {
+      for (const SplitRequest& request : requests[f])
+      {
+        this->Extra[request.Edge].push_back(request.T);
+        refine[request.Edge] = 1;
+        for (const EdgeUse& use : this->Uses[request.Edge])
+        {
+          again[use.Face] = 1;
+        }
+      }
+      if (requests[f].empty())
+      {
+        again[f] = again[f] || this->Judge(f, pass);
+      }
+    }
+    edges.clear();
+    for (std::size_t e = 0; e < refine.size(); ++e)
+    {
+      if (refine[e])
+      {
+        std::sort(this->Extra[e].begin(), this->Extra[e].end());
+        edges.push_back(std::int64_t(e));
+      }
+    }
+    todo.clear();
+    for (std::int64_t f : this->AllFaces())
+    {
+      if (again[f])
+      {
+        todo.push_back(f);
+      }
+    }
+  }
+
+  // Looks at a finished face: true if it must be done again with a finer tree.
+  bool Judge(std::int64_t f, int pass)
+  {
+    FaceMesh& mesh = this->Result.Meshes[f];
+    const double tolerance = this->ToleranceOf(f);
+    if (this->Contexts[f].Tree && this->Contexts[f].Tree->IsCapped())
+    {
+      mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
+      mesh.Message += "the triangle limit was reached";
+      return false;
+    }
+    if (mesh.CertifiedError <= tolerance || this->Options.Error == ErrorMode::Estimated)
+    {
+      return false;
+    }
+    if (this->Contexts[f].Tree && pass + 2 < MaximumPasses)
+    {
+      this->Tighten[f] *= std::max(0.5, 0.95 * tolerance / mesh.CertifiedError);
+      this->PrepareFace(f, SerialFor);
+      return true;
+    }
+    mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
+    mesh.Message += "the error cannot be certified below " + std::to_string(mesh.CertifiedError) +
+      ": the model's own gaps are as large";
+    return false;
+  }
+
+  void CollectPolylines()
+  {
+    for (std::size_t f = 0; f < this->Data.Faces.size(); ++f)
+    {
+      if (!this->IsUsable(std::int64_t(f)))
+      {
+        this->Result.Meshes[f].Status = FaceStatus::Failed;
+        this->Result.Meshes[f].Message = this->Errors[f];
+        continue;
+      }
+      const Face& face = this->Data.Faces[f];
+      for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+      {
+        const TrimLoop& loop = this->Data.Loops[l];
+        for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+        {
+          const TrimCurve& curve = this->Data.TrimCurves[c];
+          const EdgePolyline& edge = this->Polylines[curve.Edge];
+          if (edge.Degenerate || edge.Points.empty())
+          {
+            continue;
+          }
+          TrimPolyline line;
+          line.Edge = curve.Edge < this->KnownEdges() ? curve.Edge : -1;
+          line.Face = std::int64_t(f);
+          line.Points = edge.Points;
+          if (curve.Reversed)
+          {
+            std::reverse(line.Points.begin(), line.Points.end());
+          }
+          this->Result.Polylines.push_back(std::move(line));
+        }
+      }
+    }
+  }
+
+  std::int64_t KnownEdges() const { return this->Completed.KnownEdges; }
+
+  const std::vector<std::string>& Errors;
+  const TessellatorOptions& Options;
+  CompletedModel Completed;
+  const Model& Data;
+  std::vector<std::vector<EdgeUse>> Uses;
+  std::vector<std::int64_t> Large;
+  std::vector<std::int64_t> Small;
+  std::vector<std::unique_ptr<SurfaceBound>> Bounds;
+  std::vector<std::unique_ptr<SurfaceTree>> Trees;
+  std::vector<FaceContext> Contexts;
+  std::vector<double> Tighten;
+  std::vector<EdgePolyline> Polylines;
+  std::vector<std::vector<double>> Extra;
+  TessellationResult Result;
+  std::atomic<bool> Aborted{ false };
+};
+} // namespace
+
+TessellationResult Tessellate(const Model& model, const std::vector<std::string>& faceErrors,
+  const TessellatorOptions& options)
+{
+  const auto valid = [](double t) { return t > 0.0 && std::isfinite(t); };
+  for (double t : options.FaceTolerances)
+  {
+    if (!valid(t))
+    {
+      throw Error("the tolerance of every face must be positive and finite");
+    }
+  }
+  if (options.FaceTolerances.empty() && !valid(options.Tolerance))
+  {
+    throw Error("the tolerance must be positive and finite");
+  }
+  if (faceErrors.size() != model.Faces.size() ||
+    (!options.FaceTolerances.empty() && options.FaceTolerances.size() != model.Faces.size()))
+  {
+    throw Error("errors and tolerances must have one entry a face");
+  }
+  return ModelTessellator(model, faceErrors, options).Run();
+}
+
+} // namespace nurbs

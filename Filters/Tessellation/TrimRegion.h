@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file TrimRegion.h
+/// @brief A face's trimmed domain as directed polygons in (u, v): what is inside, what is cut.
+#pragma once
+
+#include "SurfaceTree.h"
+
+namespace nurbs
+{
+
+/// A vertex of a face's boundary.
+struct BoundaryVertex
+{
+  Vec2 UV;
+  Vec3 X;
+  std::int64_t Edge = -1;  ///< The edge of the segment that starts here.
+  double T0 = 0.0, T1 = 0.0; ///< That segment on the edge (T0 > T1 if reversed).
+};
+
+/// The directed polygons of one face, material on the left.
+class TrimRegion
+{
+public:
+  /// Loops of at least three vertices each.
+  explicit TrimRegion(const std::vector<std::vector<BoundaryVertex>>& loops);
+
+  /// True if p lies inside (even-odd); p must not be on a segment.
+  bool Inside(const Vec2& p) const;
+
+  /// Segments as pairs of indices into Points().
+  const std::vector<std::pair<int, int>>& Segments() const { return this->Sides; }
+  const std::vector<Vec2>& Points() const { return this->Corners; }
+  /// Twice the signed area.
+  double Area2() const;
+
+  /// Which segments come near which leaf: (leaf, segment) pairs, sorted. "Near" means within
+  /// `margin` times the leaf's own size.
+  std::vector<std::pair<int, int>> CutLeaves(const SurfaceTree& tree, double margin) const;
+
+private:
+  std::vector<Vec2> Corners;
+  std::vector<std::pair<int, int>> Sides;
+  double Low = 0.0, Step = 1.0;
+  std::vector<int> BucketStart; ///< Segments by rows of v.
+  std::vector<int> BucketItems;
+};
+
+} // namespace nurbs
