@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellError.h"
 
+#include "FacetBound.h"
 #include "SurfaceTree.h"
 
 #include <algorithm>
@@ -8,12 +9,6 @@
 
 namespace nurbs
 {
-
-double SurfaceDistance(double height, double sliding, double slope)
-{
-  const double apart = std::sqrt(height * height + sliding * sliding);
-  return slope < 0.5 ? std::min(apart, height + sliding * slope) : apart;
-}
 
 CellError::CellError(const SurfaceBound& bound, const TreeGoal& goal)
   : Bound(bound)
@@ -99,10 +94,10 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
   const double longest = std::max(d1.squaredNorm(), d2.squaredNorm());
   const bool flat = area > 1e-10 * longest && longest > 0.0;
   n = flat ? Vec3(n / area) : Vec3(Vec3::Zero());
-  range = SurfaceBound::Range(this->Coefficients, n);
+  range = SurfaceBound::Range(this->Coefficients, n, this->At[1].X - this->At[0].X + this->At[3].X - this->At[2].X);
   const double sliding = DeviationBound(range, a, b);
   const double w = 0.125 / range.MinWeight;
-  const auto most = [&](int k) { return std::max(range.High[k], -range.Low[k]) * w; };
+  const auto most = [&](int k) { return std::max(range.High[k][0], -range.Low[k][0]) * w; };
   if (!flat)
   {
     this->CostU = a * a * range.Sliding[0];
@@ -111,34 +106,33 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
     leaf.Sliding = 0.0;
     return sliding;
   }
+  const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
+    Vec2(box.U1, box.V1) };
   double worst = 1e300;
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
     double error = 0.0;
     double height = 0.0;
+    double slide = 0.0;
     for (const int* f : Facets[diagonal])
     {
-      const Vec3& x = this->At[f[0]].X;
-      Vec3 m = (this->At[f[1]].X - x).cross(this->At[f[2]].X - x);
-      const double size = m.norm();
-      if (size <= 1e-12 * longest)
+      FacetBound facet(
+        this->At[f[0]].X, this->At[f[1]].X, this->At[f[2]].X, uv[f[0]], uv[f[1]], uv[f[2]]);
+      if (!facet.HasPlane())
       {
         continue; // A corner at a pole: no triangle there.
       }
-      m /= size;
-      double h = HeightBound(range, a, b, m, x);
-      if (h > this->Goal.Tolerance && (m - n).squaredNorm() < 0.5)
-      {
-        h = std::min(h, HeightBound(SurfaceBound::Range(this->Coefficients, m), a, b, m, x));
-      }
-      height = std::max(height, h);
-      error = std::max(error, SurfaceDistance(h, sliding, this->Slope(m)));
+      facet.Add(range);
+      height = std::max(height, facet.Height());
+      slide = std::max(slide, facet.Sliding());
+      error = std::max(
+        error, SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(facet.Normal())));
     }
     if (error < worst)
     {
       worst = error;
       leaf.Height = height;
-      leaf.Sliding = sliding;
+      leaf.Sliding = slide;
       leaf.Diagonal = diagonal;
     }
   }
@@ -169,15 +163,18 @@ double CellError::Estimated(TreeLeaf& leaf, const BezierPatch* patch)
   n = area > 0.0 ? Vec3(n / area) : Vec3(Vec3::Zero());
   range = CurvatureRange();
   range.Origin = d.S;
-  range.Normal = n;
+  range.Frame.setIdentity();
   const Vec3* second[3] = { &d.Suu, &d.Suv, &d.Svv };
   for (int k = 0; k < 3; ++k)
   {
-    range.Low[k] = range.High[k] = n.dot(*second[k]);
-    range.Length[k] = range.Sliding[k] = second[k]->norm();
+    for (int c = 0; c < 3; ++c)
+    {
+      range.Low[k][c] = range.High[k][c] = (*second[k])[c];
+    }
+    range.Sliding[k] = second[k]->norm();
   }
-  this->CostU = a * a * std::abs(range.High[0]);
-  this->CostV = b * b * std::abs(range.High[2]);
+  this->CostU = a * a * std::abs(n.dot(d.Suu));
+  this->CostV = b * b * std::abs(n.dot(d.Svv));
 
   // Distances of samples from the facets' planes; several knot spans need more of them.
   const int m = patch ? 2 : 6;

@@ -12,13 +12,6 @@ namespace nurbs
 struct TreeGoal;
 struct TreeLeaf;
 
-/// Height h over the facet and sliding d along it as one distance.
-///
-/// A surface point lies h over the facet's plane, its foot at most d from the facet's own point. If
-/// the mesh goes on around the facet with a slope of at most `slope` against it, the foot has mesh
-/// above it at d * slope at most: distance <= h + d slope. Without that: sqrt(h^2 + d^2).
-double SurfaceDistance(double height, double sliding, double slope);
-
 /// Examines cells of one surface. One object per thread.
 class CellError
 {

@@ -2,8 +2,8 @@
 #include "FaceTessellator.h"
 
 #include "BorderTriangulation.h"
-#include "CellError.h"
 #include "CellZone.h"
+#include "FacetBound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,13 +139,13 @@ private:
     for (int d = 0; d < 2; ++d)
     {
       const Interval domain = this->TheFace.Geometry.Domain(d);
-      p[d] = domain.Clamp(p[d]);
-      const double eps = 1e-11 * domain.Length();
+      const double eps = 1e-10 * domain.Length();
+      p[d] = p[d] < domain.Min + eps ? domain.Min : p[d] > domain.Max - eps ? domain.Max : p[d];
       if (this->Job.Tree)
       {
         for (double crease : this->Job.Tree->Creases(d))
         {
-          if (std::abs(p[d] - crease) < 1e3 * eps)
+          if (std::abs(p[d] - crease) < 10.0 * eps)
           {
             p[d] = crease;
           }
@@ -232,8 +232,11 @@ private:
   {
     for (const auto& loop : this->Loops)
     {
-      for (const BoundaryVertex& v : loop)
+      const int first = int(this->Mesh.UV.size());
+      for (std::size_t k = 0; k < loop.size(); ++k)
       {
+        const BoundaryVertex& v = loop[k];
+        this->Next.push_back(first + int((k + 1) % loop.size()));
         this->Mesh.UV.push_back(v.UV);
         this->Mesh.Points.push_back(v.X);
         this->Segments.push_back(&v);
@@ -528,18 +531,24 @@ private:
     }
     for (const auto& t : triangles)
     {
-      if (this->TriangleError(t.data(), NoLeaf) <= this->Limit())
+      if (this->IsCollapsed(t.data()))
       {
         continue;
       }
-      double longest = 0.0;
+      const FacetBound facet = this->Facet(t.data(), NoLeaf);
+      if (this->FacetError(t.data(), facet) <= this->Limit())
+      {
+        continue;
+      }
+      double longest = -1.0;
       std::pair<int, int> edge(-1, -1);
       for (int i = 0; i < 3; ++i)
       {
         const int a = t[i];
         const int b = t[(i + 1) % 3];
-        const double length =
-          (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseProduct(this->Scale).norm();
+        const double length = facet.HasPlane()
+          ? facet.EdgeHeight(i)
+          : (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseProduct(this->Scale).norm();
         if (length > longest && !border.IsConstrained(idOf[a], idOf[b]))
         {
           longest = length;
@@ -547,6 +556,10 @@ private:
         }
       }
       Vec2 p;
+      if (this->SplitsBoundary(t.data(), edge))
+      {
+        continue;
+      }
       if (edge.first < 0)
       {
         p = (this->Mesh.UV[t[0]] + this->Mesh.UV[t[1]] + this->Mesh.UV[t[2]]) / 3.0;
@@ -568,6 +581,34 @@ private:
     }
   }
 
+  // A split of `edge` would leave a sliver at one of the triangle's boundary segments: asks for a
+  // vertex on that segment instead.
+  bool SplitsBoundary(const int* t, const std::pair<int, int>& edge)
+  {
+    bool asked = false;
+    const Vec2 p = edge.first < 0
+      ? Vec2((this->Mesh.UV[t[0]] + this->Mesh.UV[t[1]] + this->Mesh.UV[t[2]]) / 3.0)
+      : Vec2(0.5 * (this->Mesh.UV[edge.first] + this->Mesh.UV[edge.second]));
+    for (int i = 0; i < 3; ++i)
+    {
+      const int a = t[i];
+      const int b = t[(i + 1) % 3];
+      if (a >= this->BoundaryCount || b != this->Next[a] || this->Segments[a]->Edge < 0)
+      {
+        continue;
+      }
+      const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
+      const Vec2 e = (p - this->Mesh.UV[a]).cwiseProduct(this->Scale);
+      const double length = d.squaredNorm();
+      if (std::abs(d[0] * e[1] - d[1] * e[0]) < 0.2 * length)
+      {
+        this->RequestSplit(a);
+        asked = true;
+      }
+    }
+    return asked;
+  }
+
   // --- Step 4: certification --------------------------------------------------------------------
 
   double Limit() const
@@ -575,40 +616,38 @@ private:
     return this->Job.Tolerance - std::min(this->Gap, 0.5 * this->Job.Tolerance);
   }
 
-  // Bound of the surface's distance from a triangle; `leaf`: see Leaf.
-  double TriangleError(const int* t, int leaf) const
+  bool IsCollapsed(const int* t) const
   {
-    const Vec3& x0 = this->Mesh.Points[t[0]];
-    const Vec3& x1 = this->Mesh.Points[t[1]];
-    const Vec3& x2 = this->Mesh.Points[t[2]];
-    if (x0 == x1 || x1 == x2 || x2 == x0)
-    {
-      return 0.0; // At a pole: no triangle comes out.
-    }
-    Vec3 n = (x1 - x0).cross(x2 - x0);
-    const double area = n.norm();
-    const double longest =
-      std::max({ (x1 - x0).squaredNorm(), (x2 - x1).squaredNorm(), (x0 - x2).squaredNorm() });
-    const bool thin = area <= 1e-10 * longest;
-    n = thin ? Vec3(Vec3::Zero()) : Vec3(n / area);
+    const Vec3* x = this->Mesh.Points.data();
+    return x[t[0]] == x[t[1]] || x[t[1]] == x[t[2]] || x[t[2]] == x[t[0]];
+  }
+
+  // Slope of the mesh around a triangle against it: twice the tangent of the angle between the
+  // facet's normal and the surface's at the corners; 1 or more: too steep to use.
+  double Slope(const int* t, const Vec3& n) const
+  {
     double slope = 0.0;
-    bool folded = false;
     for (int i = 0; i < 3; ++i)
     {
-      const Vec3& m = this->Mesh.Normals[t[i]];
-      const double c = m.dot(n);
-      folded = folded || c < 0.0;
-      slope = c > 0.5 ? std::max(slope, 2.0 * std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0))) : 1.0;
+      const double c = this->Mesh.Normals[t[i]].dot(n);
       if (c <= 0.5)
       {
-        slope = 1.0;
-        break;
+        return 1.0;
       }
+      slope = std::max(slope, 2.0 * std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0)));
     }
+    return slope;
+  }
+
+  FacetBound Facet(const int* t, int leaf) const
+  {
+    FacetBound facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]],
+      this->Mesh.UV[t[0]], this->Mesh.UV[t[1]], this->Mesh.UV[t[2]]);
     const std::vector<TreeLeaf>& leaves = this->Job.Tree->Leaves();
-    if (leaf >= 0)
+    if (leaf != NoLeaf)
     {
-      return SurfaceDistance(leaves[leaf].Height, leaves[leaf].Sliding, slope);
+      facet.Add(leaves[-1 - leaf].Range);
+      return facet;
     }
     ParameterBox box{ 1e300, -1e300, 1e300, -1e300 };
     for (int i = 0; i < 3; ++i)
@@ -617,32 +656,36 @@ private:
       box = { std::min(box.U0, p[0]), std::max(box.U1, p[0]), std::min(box.V0, p[1]),
         std::max(box.V1, p[1]) };
     }
-    const double a = box.A();
-    const double b = box.B();
-    double height = 0.0;
-    double sliding = 0.0;
-    double weight = 1e300;
-    const auto use = [&](int k) {
-      const CurvatureRange& range = leaves[k].Range;
-      if (!thin)
-      {
-        height = std::max(height, HeightNumerator(range, a, b, n, x0));
-        weight = std::min(weight, range.MinWeight);
-      }
-      sliding = std::max(sliding, DeviationBound(range, a, b));
-    };
-    if (leaf == NoLeaf)
+    const double a = 1e-7 * box.A();
+    const double b = 1e-7 * box.B();
+    this->Job.Tree->Query({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b },
+      [&](int k) { facet.Add(leaves[k].Range); });
+    return facet;
+  }
+
+  double FacetError(const int* t, const FacetBound& facet) const
+  {
+    return facet.HasPlane()
+      ? std::min(facet.Deviation(),
+          SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(t, facet.Normal())))
+      : facet.Deviation();
+  }
+
+  // Bound of the surface's distance from a triangle; `leaf`: see Leaf.
+  double TriangleError(const int* t, int leaf) const
+  {
+    if (this->IsCollapsed(t))
     {
-      const ParameterBox inner{ box.U0 + 1e-7 * a, box.U1 - 1e-7 * a, box.V0 + 1e-7 * b,
-        box.V1 - 1e-7 * b };
-      this->Job.Tree->Query(inner, use);
+      return 0.0; // At a pole: no triangle comes out.
     }
-    else
+    if (leaf < 0)
     {
-      use(-1 - leaf);
+      return this->FacetError(t, this->Facet(t, leaf));
     }
-    return thin ? sliding
-                : std::min(sliding, SurfaceDistance(height / weight, sliding, slope));
+    const TreeLeaf& cell = this->Job.Tree->Leaves()[leaf];
+    const Vec3& x0 = this->Mesh.Points[t[0]];
+    const Vec3 n = (this->Mesh.Points[t[1]] - x0).cross(this->Mesh.Points[t[2]] - x0).normalized();
+    return SurfaceDistance(cell.Height, cell.Sliding, this->Slope(t, n));
   }
 
   void Certify()
@@ -653,6 +696,7 @@ private:
       for (std::size_t k = 0; k < this->Leaf.size(); ++k)
       {
         worst = std::max(worst, this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]));
+        if (getenv("DBG")&&this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k])>this->Job.Tolerance){auto*t=&this->Mesh.Triangles[3*k];fprintf(stderr,"FAIL leaf %d bc %d: ",this->Leaf[k],this->BoundaryCount);for(int i=0;i<3;++i)fprintf(stderr,"%d(%.5f %.5f) ",t[i],this->Mesh.UV[t[i]][0],this->Mesh.UV[t[i]][1]);if(this->Leaf[k]<0){auto f=this->Facet(t,this->Leaf[k]);fprintf(stderr,"h %g sl %g full %g slope %g plane %d",f.Height(),f.Sliding(),f.Deviation(),this->Slope(t,f.Normal()),f.HasPlane());}fprintf(stderr,"\n");}
       }
     }
     double edges = 0.0;
@@ -664,6 +708,7 @@ private:
         edges = std::max(edges, edge.Error + edge.Gap);
       }
     }
+    if (getenv("DBG2")) fprintf(stderr,"face %ld worst %g gap %g edges %g limit %g leaves %zu tri %zu whole %d\n",(long)this->Job.Face,worst,this->Gap,edges,this->Limit(),this->Job.Tree?this->Job.Tree->Leaves().size():0,this->Leaf.size(),(int)std::count_if(this->Leaf.begin(),this->Leaf.end(),[](int l){return l!=NoLeaf;}));
     this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);
   }
 
@@ -708,6 +753,7 @@ private:
   FaceMesh Mesh;
   std::vector<std::vector<BoundaryVertex>> Loops;
   std::vector<const BoundaryVertex*> Segments; ///< The segment that starts at each boundary vertex.
+  std::vector<int> Next;                       ///< The boundary vertex after each.
   int BoundaryCount = 0;
   Vec2 Scale = Vec2(1.0, 1.0);
   /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside

@@ -18,16 +18,22 @@ double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& 
 double HeightNumerator(
   const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0)
 {
-  const double turn = (n - range.Normal).norm();
+  const Vec3 local = range.Frame.transpose() * n;
   const double offset = std::abs(n.dot(p0 - range.Origin));
   const double scale[3] = { a * a, 2.0 * a * b, b * b };
   double high = 0.0;
   double low = 0.0;
   for (int k = 0; k < 3; ++k)
   {
-    const double slack = turn * range.Length[k] + offset * range.Weight[k];
-    const double h = std::max(0.0, range.High[k] + slack);
-    const double l = std::max(0.0, slack - range.Low[k]);
+    double most = offset * range.Weight[k];
+    double least = -most;
+    for (int c = 0; c < 3; ++c)
+    {
+      most += local[c] * (local[c] > 0.0 ? range.High[k][c] : range.Low[k][c]);
+      least += local[c] * (local[c] > 0.0 ? range.Low[k][c] : range.High[k][c]);
+    }
+    const double h = std::max(0.0, most);
+    const double l = std::max(0.0, -least);
     // The mixed term has either sign.
     high += scale[k] * (k == 1 ? std::max(h, l) : h);
     low += scale[k] * (k == 1 ? std::max(h, l) : l);
@@ -283,11 +289,13 @@ void SurfaceBound::FromBezier(const ParameterBox& box, const BezierPatch& patch,
     }
   }
   out.MinWeight = 1.0;
+  out.Separable = false;
   out.WeightU = out.WeightV = out.FirstU = out.FirstV = out.Radius = 0.0;
   if (!rational)
   {
     return;
   }
+  SeparableSliding(box, patch, out);
   double wmin = P[0][3];
   double radius = 0.0;
   for (const Vec4& h : patch.Points)
@@ -369,6 +377,7 @@ void SurfaceBound::FromNets(const ParameterBox& box, const Vec3& origin, Coeffic
     }
   }
   out.MinWeight = 1.0;
+  out.Separable = false;
   out.WeightU = out.WeightV = out.FirstU = out.FirstV = out.Radius = 0.0;
   if (!this->IsRational)
   {
@@ -405,26 +414,40 @@ void SurfaceBound::FromNets(const ParameterBox& box, const Vec3& origin, Coeffic
   }
 }
 
-CurvatureRange SurfaceBound::Range(const Coefficients& c, const Vec3& normal)
+CurvatureRange SurfaceBound::Range(
+  const Coefficients& c, const Vec3& normal, const Vec3& along)
 {
   CurvatureRange range;
   range.Origin = c.Origin;
-  range.Normal = normal;
   range.MinWeight = c.MinWeight;
+  const Vec3 tangent = along - normal * normal.dot(along);
+  const double size = tangent.norm();
+  const Vec3 t = size > 0.0 && normal.squaredNorm() > 0.0 ? Vec3(tangent / size) : Vec3(Vec3::UnitX());
+  if (normal.squaredNorm() > 0.0 && size > 0.0)
+  {
+    range.Frame << normal, t, normal.cross(t);
+  }
+  else
+  {
+    range.Frame.setIdentity();
+  }
+  double length[3] = { 0, 0, 0 };
   for (int k = 0; k < 3; ++k)
   {
-    double length = 0.0;
     bool first = true;
     for (const Vec4& h : c.Second[k])
     {
-      const double along = normal[0] * h[0] + normal[1] * h[1] + normal[2] * h[2];
-      range.Low[k] = first ? along : std::min(range.Low[k], along);
-      range.High[k] = first ? along : std::max(range.High[k], along);
-      length = std::max(length, h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+      const Vec3 local = range.Frame.transpose() * h.head<3>();
+      for (int d = 0; d < 3; ++d)
+      {
+        range.Low[k][d] = first ? local[d] : std::min(range.Low[k][d], local[d]);
+        range.High[k][d] = first ? local[d] : std::max(range.High[k][d], local[d]);
+      }
+      length[k] = std::max(length[k], local.squaredNorm());
       range.Weight[k] = std::max(range.Weight[k], std::abs(h[3]));
       first = false;
     }
-    range.Length[k] = std::sqrt(length);
+    length[k] = std::sqrt(length[k]);
   }
   // S_xy = (H_xy - w_xy S - w_x S_y - w_y S_x) / w, |S| <= Radius, |S_x| <= (|H_x| + |w_x| R) / w.
   const double su = (c.FirstU + c.WeightU * c.Radius) / c.MinWeight;
@@ -433,9 +456,107 @@ CurvatureRange SurfaceBound::Range(const Coefficients& c, const Vec3& normal)
     2.0 * c.WeightV * sv };
   for (int k = 0; k < 3; ++k)
   {
-    range.Sliding[k] = (range.Length[k] + range.Weight[k] * c.Radius + cross[k]) / c.MinWeight;
+    range.Sliding[k] = (length[k] + range.Weight[k] * c.Radius + cross[k]) / c.MinWeight;
+    if (c.Separable)
+    {
+      range.Sliding[k] = std::min(range.Sliding[k], c.Sliding[k]);
+    }
   }
   return range;
+}
+
+namespace
+{
+// Greatest |C''| of a rational Bezier curve over a parameter interval of length `step`, by its
+// homogeneous form around its own middle; `ratio` receives greatest weight / least weight.
+double CurveSecond(const Vec4* points, int degree, int stride, double step, double& ratio)
+{
+  const Vec4& first = points[0];
+  const Vec4& last = points[degree * stride];
+  const Vec3 origin = 0.5 * (first.head<3>() / first[3] + last.head<3>() / last[3]);
+  double wmin = first[3];
+  double wmax = first[3];
+  double radius = 0.0;
+  double d1 = 0.0;
+  double w1 = 0.0;
+  double d2 = 0.0;
+  double w2 = 0.0;
+  for (int i = 0; i <= degree; ++i)
+  {
+    const Vec4& h = points[i * stride];
+    wmin = std::min(wmin, h[3]);
+    wmax = std::max(wmax, h[3]);
+    radius = std::max(radius, (h.head<3>() / h[3] - origin).norm());
+    if (i < degree)
+    {
+      const Vec4 d = Shift(points[(i + 1) * stride] - h, origin);
+      d1 = std::max(d1, d.head<3>().norm());
+      w1 = std::max(w1, std::abs(d[3]));
+    }
+    if (i + 1 < degree)
+    {
+      const Vec4 d = Shift(points[(i + 2) * stride] - 2.0 * points[(i + 1) * stride] + h, origin);
+      d2 = std::max(d2, d.head<3>().norm());
+      w2 = std::max(w2, std::abs(d[3]));
+    }
+  }
+  ratio = wmax / wmin;
+  const double p = degree / step;
+  const double q = p * (degree - 1) / step;
+  const double speed = p * (d1 + w1 * radius) / wmin;
+  return (q * (d2 + w2 * radius) + 2.0 * p * w1 * speed) / wmin;
+}
+} // namespace
+
+// If w(u, v) = a(u) b(v), as on every surface of revolution or extrusion, then S is a convex
+// combination of its rows' curves with factors that depend on v alone, so |S_uu| is at most that of
+// a row; each row is bounded around its own middle. The mixed derivative: |S_uv| <= p q r_u^2 r_v^2
+// max |P_i+1,j+1 - P_i+1,j - P_i,j+1 + P_ij|, r the ratio of weights (Floater's bound, twice).
+void SurfaceBound::SeparableSliding(
+  const ParameterBox& box, const BezierPatch& patch, Coefficients& out)
+{
+  const int p = patch.Degree[0];
+  const int q = patch.Degree[1];
+  const int s = p + 1;
+  const std::vector<Vec4>& P = patch.Points;
+  out.Separable = true;
+  for (int j = 0; j <= q; ++j)
+  {
+    for (int i = 0; i <= p; ++i)
+    {
+      const double product = P[i][3] * P[std::size_t(j) * s][3];
+      if (std::abs(P[i + std::size_t(j) * s][3] * P[0][3] - product) > 1e-11 * product)
+      {
+        out.Separable = false;
+        return;
+      }
+    }
+  }
+  double ru = 1.0;
+  double rv = 1.0;
+  out.Sliding[0] = out.Sliding[1] = out.Sliding[2] = 0.0;
+  for (int j = 0; j <= q; ++j)
+  {
+    out.Sliding[0] = std::max(
+      out.Sliding[0], CurveSecond(&P[std::size_t(j) * s], p, 1, box.A(), ru));
+  }
+  for (int i = 0; i <= p; ++i)
+  {
+    out.Sliding[2] = std::max(out.Sliding[2], CurveSecond(&P[i], q, s, box.B(), rv));
+  }
+  const auto at = [&](int i, int j) -> Vec3 {
+    const Vec4& h = P[i + std::size_t(j) * s];
+    return h.head<3>() / h[3];
+  };
+  for (int j = 0; j < q; ++j)
+  {
+    for (int i = 0; i < p; ++i)
+    {
+      const Vec3 d = at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j);
+      out.Sliding[1] = std::max(out.Sliding[1], d.norm());
+    }
+  }
+  out.Sliding[1] *= p * q * ru * ru * rv * rv / (box.A() * box.B());
 }
 
 } // namespace nurbs

@@ -33,10 +33,10 @@ struct ParameterBox
 struct CurvatureRange
 {
   Vec3 Origin = Vec3::Zero();        ///< A point near the surface over the box.
-  Vec3 Normal = Vec3::Zero();        ///< Unit; zero if the box collapses to a line or point.
-  double Low[3] = { 0, 0, 0 };       ///< Least Normal . H''.
-  double High[3] = { 0, 0, 0 };      ///< Greatest Normal . H''.
-  double Length[3] = { 0, 0, 0 };    ///< Greatest |H''|.
+  /// Orthonormal: the cell's normal and two tangents; columns zero if the box collapses.
+  Eigen::Matrix3d Frame = Eigen::Matrix3d::Zero();
+  double Low[3][3] = {};  ///< [k][c]: least Frame.col(c) . H''.
+  double High[3][3] = {}; ///< Greatest.
   double Weight[3] = { 0, 0, 0 };    ///< Greatest |w''|.
   double Sliding[3] = { 0, 0, 0 };   ///< Greatest |S''| (the Cartesian surface).
   double MinWeight = 1.0;            ///< Least weight.
@@ -86,12 +86,15 @@ public:
     double MinWeight = 1.0;
     double Radius = 0.0; ///< Greatest distance of the surface from Origin.
     Vec3 Origin = Vec3::Zero();
+    bool Separable = false; ///< Weights are a product of a function of u and one of v.
+    double Sliding[3] = { 0, 0, 0 }; ///< If Separable: greatest |S''|.
   };
   void Evaluate(const ParameterBox& box, const BezierPatch* patch, const Vec3& origin,
     Coefficients& out) const;
 
-  /// Turns coefficients into ranges along `normal`.
-  static CurvatureRange Range(const Coefficients& coefficients, const Vec3& normal);
+  /// Turns coefficients into ranges in a frame of `normal` and the direction `along`.
+  static CurvatureRange Range(
+    const Coefficients& coefficients, const Vec3& normal, const Vec3& along);
 
 private:
   struct Net
@@ -104,6 +107,8 @@ private:
   void FromNets(const ParameterBox& box, const Vec3& origin, Coefficients& out) const;
   static void FromBezier(const ParameterBox& box, const BezierPatch& patch, const Vec3& origin,
     Coefficients& out, bool rational);
+  static void SeparableSliding(
+    const ParameterBox& box, const BezierPatch& patch, Coefficients& out);
 
   SurfaceView Surface;
   SurfaceEvaluator Prototype;

@@ -13,6 +13,7 @@ namespace
 {
 constexpr int FractionBits = 20;
 constexpr LineCode One = LineCode(1) << FractionBits;
+static double LineMargin = getenv("LM")?atof(getenv("LM")):1.06; // Bounds exceed the sampled deviation a little.
 
 // Segments that a parameter interval wants: the square root of deviation over tolerance for one
 // chord, sampled inside the knot spans of both directions.
@@ -118,6 +119,33 @@ void SampleDemand(const SurfaceBound& bound, double tolerance, DemandSamples& u,
   }
 }
 
+double Total(const DemandSamples& s)
+{
+  double total = 0.0;
+  for (std::size_t k = 0; k < s.Wanted.size(); ++k)
+  {
+    total += s.Wanted[k] * (s.At[k + 1] - s.At[k]);
+  }
+  return total;
+}
+
+// The deviations of both directions add up in a cell: they share the tolerance, half each (which
+// minimises the number of cells) unless one direction needs less with a single segment.
+void ShareTolerance(DemandSamples& u, DemandSamples& v)
+{
+  const double u2 = std::min(0.5, std::pow(Total(u), 2));
+  const double v2 = std::min(0.5, std::pow(Total(v), 2));
+  const double shareU = v2 < 0.5 ? 1.0 - v2 : (u2 < 0.5 ? u2 : 0.5);
+  for (double& w : u.Wanted)
+  {
+    w /= std::sqrt(std::max(1e-12, shareU));
+  }
+  for (double& w : v.Wanted)
+  {
+    w /= std::sqrt(std::max(1e-12, 1.0 - shareU));
+  }
+}
+
 // Lines of one direction: every span boundary, and in each span the quantiles of its demand.
 void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s,
   std::vector<double>& lines, std::vector<double>& demand)
@@ -134,7 +162,7 @@ void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s,
       total += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
     }
     const double start = demand.back();
-    const int n = std::min(20000, std::max(1, int(std::ceil(1.04 * total - 0.02))));
+    const int n = std::min(20000, std::max(1, int(std::ceil(LineMargin * total - 0.02))));
     double done = 0.0;
     std::size_t i = cell;
     for (int m = 1; m < n; ++m)
@@ -183,6 +211,7 @@ void SurfaceTree::MakeLines(
     DemandSamples u = MakeCells(breaks[0], surface.Degree[0]);
     DemandSamples v = MakeCells(breaks[1], surface.Degree[1]);
     SampleDemand(bound, goal.Tolerance, u, v, this->Parallel);
+    ShareTolerance(u, v);
     PlaceLines(breaks[0], u, this->Line[0], this->Demand[0]);
     PlaceLines(breaks[1], v, this->Line[1], this->Demand[1]);
   }

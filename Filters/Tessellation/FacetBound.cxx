@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FacetBound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+double SurfaceDistance(double height, double sliding, double slope)
+{
+  const double apart = std::sqrt(height * height + sliding * sliding);
+  return slope < 0.5 ? std::min(apart, height + sliding * slope) : apart;
+}
+
+FacetBound::FacetBound(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0,
+  const Vec2& uv1, const Vec2& uv2)
+  : X{ x0, x1, x2 }
+{
+  const Vec2 uv[3] = { uv0, uv1, uv2 };
+  this->N = (x1 - x0).cross(x2 - x0);
+  const double area = this->N.norm();
+  double longest = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int j = (i + 1) % 3;
+    this->Du[i] = std::abs(uv[j][0] - uv[i][0]);
+    this->Dv[i] = std::abs(uv[j][1] - uv[i][1]);
+    this->A = std::max(this->A, this->Du[i]);
+    this->B = std::max(this->B, this->Dv[i]);
+    longest = std::max(longest, (this->X[j] - this->X[i]).squaredNorm());
+  }
+  this->Plane = area > 1e-10 * longest;
+  if (this->Plane)
+  {
+    this->N /= area;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec3 edge = this->X[(i + 1) % 3] - this->X[i];
+      const double length = edge.norm();
+      this->Out[i] = edge.cross(this->N) / length;
+      this->Altitude[i] = area / length;
+    }
+  }
+}
+
+void FacetBound::Add(const CurvatureRange& range)
+{
+  this->Full = std::max(this->Full, DeviationBound(range, this->A, this->B));
+  if (!this->Plane)
+  {
+    this->Weight = 1.0;
+    return;
+  }
+  this->Weight = std::min(this->Weight, range.MinWeight);
+  this->HeightOver =
+    std::max(this->HeightOver, HeightNumerator(range, this->A, this->B, this->N, this->X[0]));
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Along[i] = std::max(
+      this->Along[i], HeightNumerator(range, this->Du[i], this->Dv[i], this->N, this->X[i]));
+    for (int j = 0; j < 3; ++j)
+    {
+      const double d =
+        HeightNumerator(range, this->Du[j], this->Dv[j], this->Out[i], this->X[i]);
+      double& target = i == j ? this->Bow[i] : this->Pull[i];
+      target = std::max(target, d);
+    }
+  }
+}
+
+double FacetBound::Sliding() const
+{
+  if (!this->Plane)
+  {
+    return this->Full;
+  }
+  double first = 0.0;
+  double second = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    // Inside the triangle the other two edges pull a point out by at most 4 Pull per unit of its
+    // relative height over edge i; if the altitude outweighs that, only the edge's own bow counts.
+    if (4.0 * this->Pull[i] > this->Altitude[i] * this->Weight)
+    {
+      return this->Full;
+    }
+    const double bow = this->Bow[i] / this->Weight;
+    second = std::max(second, std::min(first, bow));
+    first = std::max(first, bow);
+  }
+  return std::min(this->Full, first + second);
+}
+
+} // namespace nurbs

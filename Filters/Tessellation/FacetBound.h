@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file FacetBound.h
+/// @brief Bound of the distance between a surface and one triangle inscribed in it.
+///
+/// The surface lies at most h above the triangle's plane (SurfaceBound.h). Sliding of parameters
+/// along an edge or inside the triangle is no error; only what leaves the triangle through an edge
+/// counts: with m the edge's outward normal in the plane, m . (S - x) vanishes at both ends of the
+/// edge, so the foot of a surface point leaves by at most the transversal bow r of the edge. There
+/// the neighbour goes on with a slope against this facet: distance <= h + r * slope.
+#pragma once
+
+#include "SurfaceBound.h"
+
+namespace nurbs
+{
+
+/// Height h over a facet and sliding d out of it as one distance: sqrt(h^2 + d^2), or h + d slope if
+/// the mesh goes on around the facet with a slope of at most `slope` (< 1/2) against it.
+double SurfaceDistance(double height, double sliding, double slope);
+
+/// Collects the bounds of all boxes that a triangle touches.
+class FacetBound
+{
+public:
+  /// @param x corners on the surface; @param uv their parameters.
+  FacetBound(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0, const Vec2& uv1,
+    const Vec2& uv2);
+
+  /// False if the triangle has no plane (an edge or altitude vanishes).
+  bool HasPlane() const { return this->Plane; }
+  const Vec3& Normal() const { return this->N; }
+
+  /// Adds a box's bounds; the triangle must lie inside the union of all boxes added.
+  void Add(const CurvatureRange& range);
+
+  double Height() const { return this->HeightOver / this->Weight; }
+  /// Bound of |S - L|: sliding in any direction.
+  double Deviation() const { return this->Full; }
+  /// How far surface points' feet get out of the triangle.
+  double Sliding() const;
+  /// Height over the plane along edge i (from corner i to i + 1): which edge to split.
+  double EdgeHeight(int i) const { return this->Along[i] / this->Weight; }
+
+private:
+  Vec3 X[3];
+  Vec3 N;
+  Vec3 Out[3];       ///< In-plane outward normal of edge i.
+  double Du[3], Dv[3]; ///< Parameter extent of edge i.
+  double Altitude[3];  ///< Over edge i.
+  double A = 0.0, B = 0.0;
+  bool Plane = false;
+  double HeightOver = 0.0;
+  double Full = 0.0;
+  double Bow[3] = { 0, 0, 0 };
+  double Pull[3] = { 0, 0, 0 };
+  double Along[3] = { 0, 0, 0 };
+  double Weight = 1e300;
+};
+
+} // namespace nurbs
