@@ -28,7 +28,7 @@ struct BorderTriangulation::Internals
   std::vector<Triangulation::Vertex_handle> Vertices;
   std::vector<std::pair<int, int>> Segments;
   std::set<std::pair<int, int>> Creases;
-  Triangulation::Face_handle Hint;
+  Triangulation::Vertex_handle Last = nullptr; ///< Where the next point is looked for first.
 
   // Where a segment runs through other points it consists of several edges: visits each of them.
   template <typename F>
@@ -88,8 +88,7 @@ struct BorderTriangulation::Internals
 
 BorderTriangulation::BorderTriangulation()
   : Data(new Internals)
-{
-}
+{}
 
 BorderTriangulation::~BorderTriangulation() = default;
 
@@ -97,8 +96,9 @@ int BorderTriangulation::AddPoint(const Vec2& p)
 {
   Internals& d = *this->Data;
   const int id = int(d.Vertices.size());
-  const Triangulation::Vertex_handle v = d.Mesh.insert(Kernel::Point_2(p[0], p[1]), d.Hint);
-  d.Hint = v->face();
+  const Triangulation::Vertex_handle v =
+    d.Mesh.insert(Kernel::Point_2(p[0], p[1]), d.Last == nullptr ? nullptr : d.Last->face());
+  d.Last = v;
   if (d.Mesh.number_of_vertices() == std::size_t(id) + 1)
   {
     v->info() = id;
@@ -178,8 +178,8 @@ void BorderTriangulation::Triangles(std::vector<std::array<int, 3>>& triangles) 
       bool wall = f->is_constrained(i);
       if (wall && !d.Creases.empty())
       {
-        const auto edge = std::minmax(f->vertex(Triangulation::ccw(i))->info(),
-          f->vertex(Triangulation::cw(i))->info());
+        const auto edge = std::minmax(
+          f->vertex(Triangulation::ccw(i))->info(), f->vertex(Triangulation::cw(i))->info());
         wall = segments.count(edge) > 0 || d.Creases.count(edge) == 0;
       }
       if (!wall)

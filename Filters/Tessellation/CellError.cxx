@@ -14,8 +14,7 @@ CellError::CellError(const SurfaceBound& bound, const TreeGoal& goal)
   : Bound(bound)
   , Goal(goal)
   , Evaluator(bound.Evaluator())
-{
-}
+{}
 
 void CellError::Corners(const ParameterBox& box, const BezierPatch* patch)
 {
@@ -28,10 +27,12 @@ void CellError::Corners(const ParameterBox& box, const BezierPatch* patch)
       const SurfaceDerivatives d = this->Evaluator.Derivatives(us[k & 1], vs[k >> 1], 1);
       this->At[k] = { d.S, d.Su, d.Sv };
     }
+    this->MaxWeight = this->Bound.MaximumWeight();
     return;
   }
   const int p = patch->Degree[0];
   const int q = patch->Degree[1];
+  this->MaxWeight = 0.0;
   for (int k = 0; k < 4; ++k)
   {
     const int i = (k & 1) ? p : 0;
@@ -39,11 +40,14 @@ void CellError::Corners(const ParameterBox& box, const BezierPatch* patch)
     const int in = (k & 1) ? p - 1 : 1;
     const int jn = (k >> 1) ? q - 1 : 1;
     const Vec4& c = patch->Points[i + j * (p + 1)];
-    const Vec4 du = ((k & 1) ? c - patch->Points[in + j * (p + 1)]
-                             : patch->Points[in + j * (p + 1)] - c) * (p / box.A());
-    const Vec4 dv = ((k >> 1) ? c - patch->Points[i + jn * (p + 1)]
-                              : patch->Points[i + jn * (p + 1)] - c) * (q / box.B());
+    const Vec4 du =
+      ((k & 1) ? c - patch->Points[in + j * (p + 1)] : patch->Points[in + j * (p + 1)] - c) *
+      (p / box.A());
+    const Vec4 dv =
+      ((k >> 1) ? c - patch->Points[i + jn * (p + 1)] : patch->Points[i + jn * (p + 1)] - c) *
+      (q / box.B());
     const Vec3 x = c.head<3>() / c[3];
+    this->MaxWeight = std::max(this->MaxWeight, c[3]);
     this->At[k].X = x + this->Bound.Origin();
     this->At[k].Du = (du.head<3>() - du[3] * x) / c[3];
     this->At[k].Dv = (dv.head<3>() - dv[3] * x) / c[3];
@@ -88,13 +92,13 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
   const Vec3 d2 = this->At[2].X - this->At[1].X;
   Vec3 n = d1.cross(d2);
   const double area = n.norm();
-  const Vec3 middle =
-    0.25 * (this->At[0].X + this->At[1].X + this->At[2].X + this->At[3].X);
+  const Vec3 middle = 0.25 * (this->At[0].X + this->At[1].X + this->At[2].X + this->At[3].X);
   this->Bound.Evaluate(box, patch, middle, this->Coefficients);
   const double longest = std::max(d1.squaredNorm(), d2.squaredNorm());
   const bool flat = area > 1e-10 * longest && longest > 0.0;
   n = flat ? Vec3(n / area) : Vec3(Vec3::Zero());
-  range = SurfaceBound::Range(this->Coefficients, n, this->At[1].X - this->At[0].X + this->At[3].X - this->At[2].X);
+  range = SurfaceBound::Range(
+    this->Coefficients, n, this->At[1].X - this->At[0].X + this->At[3].X - this->At[2].X);
   const double sliding = DeviationBound(range, a, b);
   const double w = 0.125 / range.MinWeight;
   const auto most = [&](int k) { return std::max(range.High[k][0], -range.Low[k][0]) * w; };
@@ -122,6 +126,7 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
       {
         continue; // A corner at a pole: no triangle there.
       }
+      facet.SetFourthCorner(this->At[6 - f[0] - f[1] - f[2]].X, this->MaxWeight);
       facet.Add(range);
       height = std::max(height, facet.Height());
       slide = std::max(slide, facet.Sliding());
@@ -209,8 +214,7 @@ double CellError::Estimated(TreeLeaf& leaf, const BezierPatch* patch)
           if ((f == 0 && side[diagonal] >= 0) || (f == 1 && side[diagonal] <= 0))
           {
             const Vec3& at = this->At[Facets[diagonal][f][0]].X;
-            worst[diagonal] =
-              std::max(worst[diagonal], std::abs(normal[diagonal][f].dot(x - at)));
+            worst[diagonal] = std::max(worst[diagonal], std::abs(normal[diagonal][f].dot(x - at)));
           }
         }
       }
@@ -227,8 +231,7 @@ bool CellError::ExceedsLimits(int& axis) const
   const auto length = [&](int i, int j) { return (this->At[i].X - this->At[j].X).norm(); };
   const double lu = std::max(length(0, 1), length(2, 3));
   const double lv = std::max(length(0, 2), length(1, 3));
-  if (this->Goal.MaximumEdgeLength > 0.0 &&
-    std::hypot(lu, lv) > this->Goal.MaximumEdgeLength)
+  if (this->Goal.MaximumEdgeLength > 0.0 && std::hypot(lu, lv) > this->Goal.MaximumEdgeLength)
   {
     axis = lu >= lv ? 0 : 1;
     return true;
@@ -256,6 +259,7 @@ int CellError::Examine(const BezierPatch* patch, TreeLeaf& leaf)
   this->Corners(leaf.Box, patch);
   const double error = this->Goal.Error == ErrorMode::Guaranteed ? this->Bounded(leaf, patch)
                                                                  : this->Estimated(leaf, patch);
+  leaf.Error = error;
   int axis = this->CostU >= this->CostV ? 0 : 1;
   if (error <= this->Goal.Tolerance && !this->ExceedsLimits(axis))
   {

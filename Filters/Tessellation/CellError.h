@@ -38,7 +38,8 @@ private:
   const TreeGoal& Goal;
   SurfaceEvaluator Evaluator;
   SurfaceBound::Coefficients Coefficients;
-  Corner At[4]; ///< (0,0), (1,0), (0,1), (1,1).
+  Corner At[4];           ///< (0,0), (1,0), (0,1), (1,1).
+  double MaxWeight = 1.0; ///< Of the corners.
   double CostU = 0.0, CostV = 0.0;
 };
 

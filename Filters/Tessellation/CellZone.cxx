@@ -65,8 +65,7 @@ int CellZone::Vertex(LineCode u, LineCode v)
   return found.first->second;
 }
 
-void CellZone::KeepCutCorners(
-  const TrimRegion& region, const std::vector<std::pair<int, int>>& cut)
+void CellZone::KeepCutCorners(const TrimRegion& region, const std::vector<std::pair<int, int>>& cut)
 {
   const std::vector<TreeLeaf>& leaves = this->Tree.Leaves();
   std::unordered_map<Key, bool, Hash> keep;
@@ -97,9 +96,9 @@ void CellZone::KeepCutCorners(
       for (std::size_t k = begin; k < end && found.first->second; ++k)
       {
         const auto& side = region.Segments()[cut[k].second];
-        found.first->second = UnitDistance(p, region.Points()[side.first],
-                                region.Points()[side.second], 1.0 / leaf.Box.A(),
-                                1.0 / leaf.Box.B()) >= KeepDistance;
+        found.first->second =
+          UnitDistance(p, region.Points()[side.first], region.Points()[side.second],
+            1.0 / leaf.Box.A(), 1.0 / leaf.Box.B()) >= KeepDistance;
       }
     }
     begin = end;
@@ -135,7 +134,7 @@ void CellZone::MeasureScale(const std::vector<std::pair<int, int>>& cut)
   }
 }
 
-void CellZone::TriangulateWhole()
+void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good)
 {
   const int n = int(this->Keys.size());
   this->ByUV.resize(n);
@@ -180,7 +179,19 @@ void CellZone::TriangulateWhole()
     }
     else
     {
+      const std::size_t first = this->Result.size();
       this->Monotone(k, lower, upper);
+      if (!std::all_of(this->Result.begin() + first, this->Result.end(), good))
+      {
+        this->Result.resize(first);
+        const int middle = int(this->Vertices.size());
+        this->Vertices.emplace_back(
+          0.5 * (leaf.Box.U0 + leaf.Box.U1), 0.5 * (leaf.Box.V0 + leaf.Box.V1));
+        for (int i = 0; i < m; ++i)
+        {
+          this->Result.push_back({ { polygon[i], polygon[(i + 1) % m], middle }, k, false });
+        }
+      }
     }
   }
   // Sides without a partner face the border zone.
@@ -207,9 +218,7 @@ void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vec
   const std::vector<Key>& keys = this->Keys;
   const auto row = [&](LineCode v, std::vector<int>& out) {
     auto at = std::lower_bound(this->ByVU.begin(), this->ByVU.end(), Key{ leaf.U0, v },
-      [&](int a, const Key& k) {
-        return keys[a].V != k.V ? keys[a].V < k.V : keys[a].U < k.U;
-      });
+      [&](int a, const Key& k) { return keys[a].V != k.V ? keys[a].V < k.V : keys[a].U < k.U; });
     for (; at != this->ByVU.end() && keys[*at].V == v && keys[*at].U <= leaf.U1; ++at)
     {
       out.push_back(*at);
@@ -217,9 +226,7 @@ void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vec
   };
   const auto column = [&](LineCode u, std::vector<int>& out) {
     auto at = std::lower_bound(this->ByUV.begin(), this->ByUV.end(), Key{ u, leaf.V0 },
-      [&](int a, const Key& k) {
-        return keys[a].U != k.U ? keys[a].U < k.U : keys[a].V < k.V;
-      });
+      [&](int a, const Key& k) { return keys[a].U != k.U ? keys[a].U < k.U : keys[a].V < k.V; });
     for (; at != this->ByUV.end() && keys[*at].U == u && keys[*at].V <= leaf.V1; ++at)
     {
       out.push_back(*at);
@@ -242,8 +249,7 @@ void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vec
 
 // Linear-time triangulation of a convex cell with vertices on its sides: the sweep for monotone
 // polygons, in (u, v) order. Collinear triples never make a triangle.
-void CellZone::Monotone(
-  int leaf, const std::vector<int>& lower, const std::vector<int>& upper)
+void CellZone::Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper)
 {
   const std::vector<Key>& keys = this->Keys;
   const auto before = [&](int a, int b) {

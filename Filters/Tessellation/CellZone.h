@@ -27,8 +27,9 @@ public:
 
   /// Parameters of all vertices: corners of whole cells, and corners of cut cells well inside.
   const std::vector<Vec2>& Points() const { return this->Vertices; }
-  /// Triangulates the whole cells, with the T-vertices on their sides.
-  void TriangulateWhole();
+  /// Triangulates the whole cells, with the T-vertices on their sides. A cell with T-vertices one of
+  /// whose triangles is not `good` becomes a fan around its middle, a new point of Points().
+  void TriangulateWhole(const std::function<bool(const Triangle&)>& good);
   const std::vector<Triangle>& Triangles() const { return this->Result; }
   /// Sides of whole cells that face the border zone, directed with the zone on their left.
   const std::vector<std::pair<int, int>>& OpenSides() const { return this->Sides; }
@@ -47,8 +48,8 @@ private:
   {
     std::size_t operator()(const Key& k) const
     {
-      return std::size_t(k.U) * 0x9E3779B97F4A7C15ull ^ (std::size_t(k.V) + 0x7F4A7C15ull) *
-        0xC2B2AE3D27D4EB4Full;
+      return std::size_t(k.U) * 0x9E3779B97F4A7C15ull ^
+        (std::size_t(k.V) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
     }
   };
   int Vertex(LineCode u, LineCode v);

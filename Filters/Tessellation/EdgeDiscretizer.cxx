@@ -222,8 +222,7 @@ double TrimParameter(const TrimCurve& curve, const Interval& edge, double t)
   return own.Clamp(own.Min + (t - edge.Min) * (own.Length() / edge.Length()));
 }
 
-Interval EdgeDomain(
-  const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses)
+Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses)
 {
   const CurveView<3>& c = model.Edges[edge].Geometry;
   if (c.Count > 1 || uses.empty())
@@ -236,8 +235,8 @@ Interval EdgeDomain(
 namespace
 {
 // Parameters in (0, 1) where a Bezier function changes sign, by subdivision.
-void FindRoots(const std::vector<Vec<1>>& f, double t0, double t1, int depth,
-  std::vector<double>& roots)
+void FindRoots(
+  const std::vector<Vec<1>>& f, double t0, double t1, int depth, std::vector<double>& roots)
 {
   bool positive = false;
   bool negative = false;
@@ -308,8 +307,7 @@ public:
     , Tolerance(tolerance)
     , Options(options)
     , Domain(EdgeDomain(model, edge, uses))
-  {
-  }
+  {}
 
   EdgePolyline Run(const std::vector<double>& extra)
   {
@@ -338,8 +336,7 @@ public:
       this->Insert(thirds);
     }
     for (int pass = 0; pass < 4 && this->Vote(); ++pass)
-    {
-    }
+    {}
     this->MakePoints();
     return std::move(this->Out);
   }
@@ -384,8 +381,8 @@ private:
         for (int k = 0; k <= 8; ++k)
         {
           const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
-          gap = std::max(
-            gap, (this->Lifted(this->Uses[i], t) - this->Lifted(this->Uses[0], t)).norm());
+          gap =
+            std::max(gap, (this->Lifted(this->Uses[i], t) - this->Lifted(this->Uses[0], t)).norm());
         }
       }
     }
@@ -585,9 +582,9 @@ private:
 };
 } // namespace
 
-EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge,
-  const std::vector<EdgeUse>& uses, const std::vector<FaceContext>& faces, double tolerance,
-  const TessellatorOptions& options, const std::vector<double>& extra)
+EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses,
+  const std::vector<FaceContext>& faces, double tolerance, const TessellatorOptions& options,
+  const std::vector<double>& extra)
 {
   if (IsDegenerate(model.Edges[edge]))
   {

@@ -62,8 +62,8 @@ Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<Edg
 
 /// Discretises one edge.
 /// @param extra parameters that must be vertices, too (from faces that could not certify without).
-EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge,
-  const std::vector<EdgeUse>& uses, const std::vector<FaceContext>& faces, double tolerance,
-  const TessellatorOptions& options, const std::vector<double>& extra);
+EdgePolyline DiscretizeEdge(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses,
+  const std::vector<FaceContext>& faces, double tolerance, const TessellatorOptions& options,
+  const std::vector<double>& extra);
 
 } // namespace nurbs

@@ -25,8 +25,7 @@ public:
     , TheFace(job.Data->Faces[job.Face])
     , Requests(requests)
     , Evaluator(job.Bound->Evaluator())
-  {
-  }
+  {}
 
   FaceMesh Run()
   {
@@ -331,11 +330,18 @@ private:
       this->Mesh.UV.push_back(uv);
     }
     this->EvaluateFrom(first, false);
-    zone.TriangulateWhole();
+    const std::size_t corners = zone.Points().size();
+    zone.TriangulateWhole([&](const CellZone::Triangle& t) {
+      const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
+      return this->TriangleError(corner, -1 - t.Leaf) <= this->Limit();
+    });
+    const std::size_t middles = this->Mesh.UV.size();
+    this->Mesh.UV.insert(this->Mesh.UV.end(), zone.Points().begin() + corners, zone.Points().end());
+    this->EvaluateFrom(middles, false);
     for (const CellZone::Triangle& t : zone.Triangles())
     {
-      this->Mesh.Triangles.insert(
-        this->Mesh.Triangles.end(), { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first });
+      this->Mesh.Triangles.insert(this->Mesh.Triangles.end(),
+        { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first });
       this->Leaf.push_back(t.Whole ? t.Leaf : -1 - t.Leaf);
     }
     std::vector<Vec2> flat(this->Mesh.UV.size());
@@ -422,7 +428,8 @@ private:
     const std::size_t asked = this->Requests.size();
     if (this->Job.LastPass)
     {
-      this->Note(FaceStatus::Repaired, "its loops cross; the crossing parts are joined as they are");
+      this->Note(
+        FaceStatus::Repaired, "its loops cross; the crossing parts are joined as they are");
       return false;
     }
     for (std::size_t s = 0; s < asked; ++s)
@@ -616,6 +623,17 @@ private:
     return this->Job.Tolerance - std::min(this->Gap, 0.5 * this->Job.Tolerance);
   }
 
+  bool IsPole(int vertex) const
+  {
+    if (vertex >= this->BoundaryCount)
+    {
+      return false;
+    }
+    const std::int64_t edge = this->Segments[vertex]->Edge;
+    return (edge >= 0 && (*this->Job.Edges)[edge].Degenerate) ||
+      this->Mesh.Points[vertex] == this->Mesh.Points[this->Next[vertex]];
+  }
+
   bool IsCollapsed(const int* t) const
   {
     const Vec3* x = this->Mesh.Points.data();
@@ -644,6 +662,13 @@ private:
     FacetBound facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]],
       this->Mesh.UV[t[0]], this->Mesh.UV[t[1]], this->Mesh.UV[t[2]]);
     const std::vector<TreeLeaf>& leaves = this->Job.Tree->Leaves();
+    for (int i = 0; i < 3; ++i)
+    {
+      if (this->IsPole(t[i]))
+      {
+        facet.SetPole(i);
+      }
+    }
     if (leaf != NoLeaf)
     {
       facet.Add(leaves[-1 - leaf].Range);
@@ -696,7 +721,6 @@ private:
       for (std::size_t k = 0; k < this->Leaf.size(); ++k)
       {
         worst = std::max(worst, this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]));
-        if (getenv("DBG")&&this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k])>this->Job.Tolerance){auto*t=&this->Mesh.Triangles[3*k];fprintf(stderr,"FAIL leaf %d bc %d: ",this->Leaf[k],this->BoundaryCount);for(int i=0;i<3;++i)fprintf(stderr,"%d(%.5f %.5f) ",t[i],this->Mesh.UV[t[i]][0],this->Mesh.UV[t[i]][1]);if(this->Leaf[k]<0){auto f=this->Facet(t,this->Leaf[k]);fprintf(stderr,"h %g sl %g full %g slope %g plane %d",f.Height(),f.Sliding(),f.Deviation(),this->Slope(t,f.Normal()),f.HasPlane());}fprintf(stderr,"\n");}
       }
     }
     double edges = 0.0;
@@ -708,7 +732,6 @@ private:
         edges = std::max(edges, edge.Error + edge.Gap);
       }
     }
-    if (getenv("DBG2")) fprintf(stderr,"face %ld worst %g gap %g edges %g limit %g leaves %zu tri %zu whole %d\n",(long)this->Job.Face,worst,this->Gap,edges,this->Limit(),this->Job.Tree?this->Job.Tree->Leaves().size():0,this->Leaf.size(),(int)std::count_if(this->Leaf.begin(),this->Leaf.end(),[](int l){return l!=NoLeaf;}));
     this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);
   }
 

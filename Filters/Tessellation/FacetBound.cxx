@@ -13,8 +13,8 @@ double SurfaceDistance(double height, double sliding, double slope)
   return slope < 0.5 ? std::min(apart, height + sliding * slope) : apart;
 }
 
-FacetBound::FacetBound(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0,
-  const Vec2& uv1, const Vec2& uv2)
+FacetBound::FacetBound(
+  const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0, const Vec2& uv1, const Vec2& uv2)
   : X{ x0, x1, x2 }
 {
   const Vec2 uv[3] = { uv0, uv1, uv2 };
@@ -44,6 +44,31 @@ FacetBound::FacetBound(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec
   }
 }
 
+void FacetBound::SetPole(int k)
+{
+  const int before = (k + 2) % 3;
+  const int base = (k + 1) % 3;
+  const bool along = this->Dv[base] <= 1e-9 * this->B;  // The base runs along u.
+  const bool across = this->Du[base] <= 1e-9 * this->A; // Or along v.
+  if (along)
+  {
+    this->Du[before] = this->Du[k] = 0.0;
+  }
+  else if (across)
+  {
+    this->Dv[before] = this->Dv[k] = 0.0;
+  }
+  this->Mixed = !along && !across;
+}
+
+void FacetBound::SetFourthCorner(const Vec3& x, double weight)
+{
+  // On the half without the fourth corner the bilinear interpolant of f is at most a quarter of its
+  // value there.
+  this->Mixed = false;
+  this->Twist = this->Plane ? 0.25 * weight * std::abs(this->N.dot(x - this->X[0])) : 0.0;
+}
+
 void FacetBound::Add(const CurvatureRange& range)
 {
   this->Full = std::max(this->Full, DeviationBound(range, this->A, this->B));
@@ -53,16 +78,16 @@ void FacetBound::Add(const CurvatureRange& range)
     return;
   }
   this->Weight = std::min(this->Weight, range.MinWeight);
-  this->HeightOver =
-    std::max(this->HeightOver, HeightNumerator(range, this->A, this->B, this->N, this->X[0]));
+  this->HeightOver = std::max(this->HeightOver,
+    BoundDeviation(range, this->A, this->B, this->N, this->X[0], this->Mixed).Largest());
   for (int i = 0; i < 3; ++i)
   {
-    this->Along[i] = std::max(
-      this->Along[i], HeightNumerator(range, this->Du[i], this->Dv[i], this->N, this->X[i]));
+    this->Along[i] = std::max(this->Along[i],
+      BoundDeviation(range, this->Du[i], this->Dv[i], this->N, this->X[i]).Largest());
     for (int j = 0; j < 3; ++j)
     {
       const double d =
-        HeightNumerator(range, this->Du[j], this->Dv[j], this->Out[i], this->X[i]);
+        BoundDeviation(range, this->Du[j], this->Dv[j], this->Out[i], this->X[i]).Above;
       double& target = i == j ? this->Bow[i] : this->Pull[i];
       target = std::max(target, d);
     }

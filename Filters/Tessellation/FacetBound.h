@@ -26,6 +26,14 @@ public:
   FacetBound(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0, const Vec2& uv1,
     const Vec2& uv2);
 
+  /// Says that corner k is a pole: all parameters of its side are that point, so the triangle stands
+  /// for the whole parameter box between the other two corners and the side.
+  void SetPole(int k);
+
+  /// Says that the triangle is one of the two halves of a parameter box whose fourth corner is x:
+  /// the exact twist replaces the bound of the mixed derivative (Balazs section 5.2, scalar form).
+  void SetFourthCorner(const Vec3& x, double weight);
+
   /// False if the triangle has no plane (an edge or altitude vanishes).
   bool HasPlane() const { return this->Plane; }
   const Vec3& Normal() const { return this->N; }
@@ -33,7 +41,7 @@ public:
   /// Adds a box's bounds; the triangle must lie inside the union of all boxes added.
   void Add(const CurvatureRange& range);
 
-  double Height() const { return this->HeightOver / this->Weight; }
+  double Height() const { return (this->HeightOver + this->Twist) / this->Weight; }
   /// Bound of |S - L|: sliding in any direction.
   double Deviation() const { return this->Full; }
   /// How far surface points' feet get out of the triangle.
@@ -44,11 +52,13 @@ public:
 private:
   Vec3 X[3];
   Vec3 N;
-  Vec3 Out[3];       ///< In-plane outward normal of edge i.
+  Vec3 Out[3];         ///< In-plane outward normal of edge i.
   double Du[3], Dv[3]; ///< Parameter extent of edge i.
   double Altitude[3];  ///< Over edge i.
   double A = 0.0, B = 0.0;
   bool Plane = false;
+  bool Mixed = true;
+  double Twist = 0.0;
   double HeightOver = 0.0;
   double Full = 0.0;
   double Bow[3] = { 0, 0, 0 };

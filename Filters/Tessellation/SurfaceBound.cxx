@@ -10,21 +10,19 @@
 namespace nurbs
 {
 
-double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0)
-{
-  return HeightNumerator(range, a, b, n, p0) / range.MinWeight;
-}
-
-double HeightNumerator(
-  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0)
+Deviation BoundDeviation(
+  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0, bool mixed)
 {
   const Vec3 local = range.Frame.transpose() * n;
   const double offset = std::abs(n.dot(p0 - range.Origin));
-  const double scale[3] = { a * a, 2.0 * a * b, b * b };
-  double high = 0.0;
-  double low = 0.0;
+  const double scale[3] = { 0.125 * a * a, 0.25 * a * b, 0.125 * b * b };
+  Deviation d;
   for (int k = 0; k < 3; ++k)
   {
+    if (scale[k] == 0.0 || (k == 1 && !mixed))
+    {
+      continue;
+    }
     double most = offset * range.Weight[k];
     double least = -most;
     for (int c = 0; c < 3; ++c)
@@ -32,13 +30,13 @@ double HeightNumerator(
       most += local[c] * (local[c] > 0.0 ? range.High[k][c] : range.Low[k][c]);
       least += local[c] * (local[c] > 0.0 ? range.Low[k][c] : range.High[k][c]);
     }
-    const double h = std::max(0.0, most);
-    const double l = std::max(0.0, -least);
+    const double up = std::max(0.0, -least); // Second derivatives below zero bend f up.
+    const double down = std::max(0.0, most);
     // The mixed term has either sign.
-    high += scale[k] * (k == 1 ? std::max(h, l) : h);
-    low += scale[k] * (k == 1 ? std::max(h, l) : l);
+    d.Above += scale[k] * (k == 1 ? std::max(up, down) : up);
+    d.Below += scale[k] * (k == 1 ? std::max(up, down) : down);
   }
-  return 0.125 * std::max(high, low);
+  return d;
 }
 
 double DeviationBound(const CurvatureRange& range, double a, double b)
@@ -62,6 +60,7 @@ SurfaceBound::SurfaceBound(const SurfaceView& surface)
     wmin = std::min(wmin, w);
     wmax = std::max(wmax, w);
   }
+  this->GreatestWeight = wmax;
   this->IsRational = wmax - wmin > 1e-14 * wmax;
   this->Center = box.center();
   this->Diagonal = box.diagonal().norm();
@@ -74,8 +73,7 @@ SurfaceBound::SurfaceBound(const SurfaceView& surface)
     const double w = this->IsRational ? surface.Weight(k) : 1.0;
     this->Control.Points[k] << (surface.Point(k) - this->Center) * w, w;
   }
-  const bool manySpans =
-    DistinctKnots(surface.Knots[0], surface.Degree[0]).size() > 2 ||
+  const bool manySpans = DistinctKnots(surface.Knots[0], surface.Degree[0]).size() > 2 ||
     DistinctKnots(surface.Knots[1], surface.Degree[1]).size() > 2;
   if (manySpans)
   {
@@ -186,7 +184,8 @@ void BlossomMatrix(KnotView knots, int p, int k, double a, double b, std::vector
         }
       }
     }
-    std::copy_n(c.begin() + std::size_t(p) * (p + 1), p + 1, m.begin() + std::size_t(row) * (p + 1));
+    std::copy_n(
+      c.begin() + std::size_t(p) * (p + 1), p + 1, m.begin() + std::size_t(row) * (p + 1));
   }
 }
 } // namespace
@@ -232,8 +231,8 @@ void SurfaceBound::Extract(const ParameterBox& box, BezierPatch& patch) const
   }
 }
 
-void SurfaceBound::Evaluate(const ParameterBox& box, const BezierPatch* patch, const Vec3& origin,
-  Coefficients& out) const
+void SurfaceBound::Evaluate(
+  const ParameterBox& box, const BezierPatch* patch, const Vec3& origin, Coefficients& out) const
 {
   out.Origin = origin;
   if (patch)
@@ -255,8 +254,8 @@ inline Vec4 Shift(const Vec4& h, const Vec3& origin)
 }
 } // namespace
 
-void SurfaceBound::FromBezier(const ParameterBox& box, const BezierPatch& patch,
-  const Vec3& origin, Coefficients& out, bool rational)
+void SurfaceBound::FromBezier(const ParameterBox& box, const BezierPatch& patch, const Vec3& origin,
+  Coefficients& out, bool rational)
 {
   const int p = patch.Degree[0];
   const int q = patch.Degree[1];
@@ -414,15 +413,15 @@ void SurfaceBound::FromNets(const ParameterBox& box, const Vec3& origin, Coeffic
   }
 }
 
-CurvatureRange SurfaceBound::Range(
-  const Coefficients& c, const Vec3& normal, const Vec3& along)
+CurvatureRange SurfaceBound::Range(const Coefficients& c, const Vec3& normal, const Vec3& along)
 {
   CurvatureRange range;
   range.Origin = c.Origin;
   range.MinWeight = c.MinWeight;
   const Vec3 tangent = along - normal * normal.dot(along);
   const double size = tangent.norm();
-  const Vec3 t = size > 0.0 && normal.squaredNorm() > 0.0 ? Vec3(tangent / size) : Vec3(Vec3::UnitX());
+  const Vec3 t =
+    size > 0.0 && normal.squaredNorm() > 0.0 ? Vec3(tangent / size) : Vec3(Vec3::UnitX());
   if (normal.squaredNorm() > 0.0 && size > 0.0)
   {
     range.Frame << normal, t, normal.cross(t);
@@ -537,8 +536,8 @@ void SurfaceBound::SeparableSliding(
   out.Sliding[0] = out.Sliding[1] = out.Sliding[2] = 0.0;
   for (int j = 0; j <= q; ++j)
   {
-    out.Sliding[0] = std::max(
-      out.Sliding[0], CurveSecond(&P[std::size_t(j) * s], p, 1, box.A(), ru));
+    out.Sliding[0] =
+      std::max(out.Sliding[0], CurveSecond(&P[std::size_t(j) * s], p, 1, box.A(), ru));
   }
   for (int i = 0; i <= p; ++i)
   {

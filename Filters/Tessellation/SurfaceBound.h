@@ -32,22 +32,29 @@ struct ParameterBox
 /// homogeneous ones); homogeneous coordinates are taken relative to Origin.
 struct CurvatureRange
 {
-  Vec3 Origin = Vec3::Zero();        ///< A point near the surface over the box.
+  Vec3 Origin = Vec3::Zero(); ///< A point near the surface over the box.
   /// Orthonormal: the cell's normal and two tangents; columns zero if the box collapses.
   Eigen::Matrix3d Frame = Eigen::Matrix3d::Zero();
-  double Low[3][3] = {};  ///< [k][c]: least Frame.col(c) . H''.
-  double High[3][3] = {}; ///< Greatest.
-  double Weight[3] = { 0, 0, 0 };    ///< Greatest |w''|.
-  double Sliding[3] = { 0, 0, 0 };   ///< Greatest |S''| (the Cartesian surface).
-  double MinWeight = 1.0;            ///< Least weight.
+  double Low[3][3] = {};           ///< [k][c]: least Frame.col(c) . H''.
+  double High[3][3] = {};          ///< Greatest.
+  double Weight[3] = { 0, 0, 0 };  ///< Greatest |w''|.
+  double Sliding[3] = { 0, 0, 0 }; ///< Greatest |S''| (the Cartesian surface).
+  double MinWeight = 1.0;          ///< Least weight.
 };
 
-/// Bounds |n . (S - p0)| over a triangle with a parameter box a x b whose plane is (n, p0).
-double HeightBound(const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0);
+/// How far f = n . (H - w p0), which vanishes at a triangle's corners, gets above and below zero over
+/// a triangle with a parameter box a x b; divided by the least weight: n . (S - p0).
+struct Deviation
+{
+  double Above = 0.0;
+  double Below = 0.0;
+  double Largest() const { return this->Above > this->Below ? this->Above : this->Below; }
+};
 
-/// The same before the division by the least weight, for triangles over several boxes.
-double HeightNumerator(
-  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0);
+/// Bounds f over a triangle. Without `mixed` the term of f_uv is left out: right for segments along
+/// an iso-line, and for the deviation from the bilinear interpolant of a box.
+Deviation BoundDeviation(const CurvatureRange& range, double a, double b, const Vec3& n,
+  const Vec3& p0, bool mixed = true);
 
 /// Bounds |S - L| (height and sliding together) over a triangle with a parameter box a x b.
 double DeviationBound(const CurvatureRange& range, double a, double b);
@@ -65,6 +72,8 @@ public:
   bool Rational() const { return this->IsRational; }
   /// An evaluator to copy: copies share the control net.
   const SurfaceEvaluator& Evaluator() const { return this->Prototype; }
+  /// Greatest weight (1 if all are equal).
+  double MaximumWeight() const { return this->IsRational ? this->GreatestWeight : 1.0; }
   /// Length of the control net's bounding-box diagonal.
   double Size() const { return this->Diagonal; }
   /// The centre of the control net's bounding box; nets below are relative to it.
@@ -86,11 +95,11 @@ public:
     double MinWeight = 1.0;
     double Radius = 0.0; ///< Greatest distance of the surface from Origin.
     Vec3 Origin = Vec3::Zero();
-    bool Separable = false; ///< Weights are a product of a function of u and one of v.
+    bool Separable = false;          ///< Weights are a product of a function of u and one of v.
     double Sliding[3] = { 0, 0, 0 }; ///< If Separable: greatest |S''|.
   };
-  void Evaluate(const ParameterBox& box, const BezierPatch* patch, const Vec3& origin,
-    Coefficients& out) const;
+  void Evaluate(
+    const ParameterBox& box, const BezierPatch* patch, const Vec3& origin, Coefficients& out) const;
 
   /// Turns coefficients into ranges in a frame of `normal` and the direction `along`.
   static CurvatureRange Range(
@@ -113,6 +122,7 @@ private:
   SurfaceView Surface;
   SurfaceEvaluator Prototype;
   bool IsRational = false;
+  double GreatestWeight = 1.0;
   Vec3 Center = Vec3::Zero();
   double Diagonal = 0.0;
   Net Control;

@@ -13,7 +13,6 @@ namespace
 {
 constexpr int FractionBits = 20;
 constexpr LineCode One = LineCode(1) << FractionBits;
-static double LineMargin = getenv("LM")?atof(getenv("LM")):1.06; // Bounds exceed the sampled deviation a little.
 
 // Segments that a parameter interval wants: the square root of deviation over tolerance for one
 // chord, sampled inside the knot spans of both directions.
@@ -147,7 +146,7 @@ void ShareTolerance(DemandSamples& u, DemandSamples& v)
 }
 
 // Lines of one direction: every span boundary, and in each span the quantiles of its demand.
-void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s,
+void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s, double margin,
   std::vector<double>& lines, std::vector<double>& demand)
 {
   lines.assign(1, breaks.front());
@@ -162,7 +161,7 @@ void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s,
       total += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
     }
     const double start = demand.back();
-    const int n = std::min(20000, std::max(1, int(std::ceil(LineMargin * total - 0.02))));
+    const int n = std::min(20000, std::max(1, int(std::ceil(margin * total - 0.02))));
     double done = 0.0;
     std::size_t i = cell;
     for (int m = 1; m < n; ++m)
@@ -212,8 +211,18 @@ void SurfaceTree::MakeLines(
     DemandSamples v = MakeCells(breaks[1], surface.Degree[1]);
     SampleDemand(bound, goal.Tolerance, u, v, this->Parallel);
     ShareTolerance(u, v);
-    PlaceLines(breaks[0], u, this->Line[0], this->Demand[0]);
-    PlaceLines(breaks[1], v, this->Line[1], this->Demand[1]);
+    double margin = 1.04;
+    for (int attempt = 0; attempt < 4; ++attempt)
+    {
+      PlaceLines(breaks[0], u, margin, this->Line[0], this->Demand[0]);
+      PlaceLines(breaks[1], v, margin, this->Line[1], this->Demand[1]);
+      const double excess = this->TypicalExcess(bound, goal);
+      if (excess <= 1.0 || goal.Error == ErrorMode::Estimated)
+      {
+        break;
+      }
+      margin *= std::min(1.3, 1.01 * std::sqrt(excess));
+    }
   }
   else
   {
@@ -238,6 +247,30 @@ void SurfaceTree::MakeLines(
       this->IsCrease[d][at - this->Line[d].begin()] = 1;
     }
   }
+}
+
+// The error of typical finest cells over the tolerance: the bounds exceed the sampled deviation, and
+// a cell that just fails would be halved.
+double SurfaceTree::TypicalExcess(const SurfaceBound& bound, const TreeGoal& goal) const
+{
+  constexpr int Samples = 12;
+  CellError cell(bound, goal);
+  std::vector<double> excess;
+  const std::size_t nu = this->Line[0].size() - 1;
+  const std::size_t nv = this->Line[1].size() - 1;
+  for (int k = 0; k < Samples; ++k)
+  {
+    const std::size_t i = std::size_t((k + 0.5) / Samples * nu);
+    const std::size_t j = std::size_t((0.5 + (k * 5) % Samples) / Samples * nv);
+    TreeLeaf leaf;
+    leaf.Box = { this->Line[0][i], this->Line[0][i + 1], this->Line[1][j], this->Line[1][j + 1] };
+    BezierPatch patch;
+    bound.Extract(leaf.Box, patch);
+    cell.Examine(&patch, leaf);
+    excess.push_back(leaf.Error / goal.Tolerance);
+  }
+  std::nth_element(excess.begin(), excess.begin() + Samples * 2 / 3, excess.end());
+  return excess[Samples * 2 / 3];
 }
 
 double SurfaceTree::Parameter(int dir, LineCode code) const
@@ -319,8 +352,7 @@ struct SurfaceTree::Work
     , MaximumLeaves(maximumLeaves)
     , Out(out)
     , Cell(bound, goal)
-  {
-  }
+  {}
 
   bool CreaseInside(int dir, LineCode low, LineCode high) const
   {
@@ -420,8 +452,8 @@ struct SurfaceTree::Work
   }
 };
 
-void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain,
-  const TreeGoal& goal, const ParallelFor& parallel)
+void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
+  const ParallelFor& parallel)
 {
   this->Parallel = parallel;
   this->MakeLines(bound, domain, goal);

@@ -25,6 +25,7 @@ struct TreeLeaf
   LineCode U0 = 0, U1 = 0, V0 = 0, V1 = 0;
   ParameterBox Box;
   CurvatureRange Range;
+  double Error = 0.0;   ///< Bound (or estimate) of the two triangles' distance from the surface.
   double Height = 0.0;  ///< Bound (or estimate) of the surface's height over the two triangles.
   double Sliding = 0.0; ///< Bound of its sliding along them.
   int Diagonal = 0;     ///< 0: from (U0, V0) to (U1, V1); 1: from (U1, V0) to (U0, V1).
@@ -123,8 +124,8 @@ private:
     const Node& node = this->Nodes[index];
     const double mu = margin * node.Box.A();
     const double mv = margin * node.Box.B();
-    if (!SegmentTouchesBox(a, b,
-          { node.Box.U0 - mu, node.Box.U1 + mu, node.Box.V0 - mv, node.Box.V1 + mv }))
+    if (!SegmentTouchesBox(
+          a, b, { node.Box.U0 - mu, node.Box.U1 + mu, node.Box.V0 - mv, node.Box.V1 + mv }))
     {
       return;
     }
@@ -140,6 +141,7 @@ private:
   }
 
   void MakeLines(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal);
+  double TypicalExcess(const SurfaceBound& bound, const TreeGoal& goal) const;
   ParameterBox BoxOf(const Range& range) const;
   /// The code where [low, high] of a direction is split; `low` if it cannot be.
   LineCode SplitCode(int dir, LineCode low, LineCode high, bool halves) const;

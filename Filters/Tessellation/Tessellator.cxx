@@ -26,8 +26,7 @@ public:
     , Options(options)
     , Completed(CompleteModel(model, faceErrors))
     , Data(Completed.Data)
-  {
-  }
+  {}
 
   TessellationResult Run()
   {
@@ -41,9 +40,8 @@ public:
     this->OrderFaces();
 
     // Step 1: bounds and a tree for every surface.
-    this->ForFaces(this->AllFaces(), 0.0, 0.5, [&](std::int64_t f, const ParallelFor& parallel) {
-      this->PrepareFace(f, parallel);
-    });
+    this->ForFaces(this->AllFaces(), 0.0, 0.5,
+      [&](std::int64_t f, const ParallelFor& parallel) { this->PrepareFace(f, parallel); });
 
     std::vector<std::int64_t> edges(this->Data.Edges.size());
     for (std::size_t e = 0; e < edges.size(); ++e)
@@ -251,8 +249,7 @@ private:
 
   // Triangulates the faces of `todo`; on return `todo` has those that must be done again, and
   // `edges` the edges that must get more points first.
-  void TriangulateFaces(
-    std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
+  void TriangulateFaces(std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
   {
     const bool last = pass + 1 == MaximumPasses;
     std::vector<std::vector<SplitRequest>> requests(this->Data.Faces.size());
@@ -394,8 +391,8 @@ private:
 };
 } // namespace
 
-TessellationResult Tessellate(const Model& model, const std::vector<std::string>& faceErrors,
-  const TessellatorOptions& options)
+TessellationResult Tessellate(
+  const Model& model, const std::vector<std::string>& faceErrors, const TessellatorOptions& options)
 {
   const auto valid = [](double t) { return t > 0.0 && std::isfinite(t); };
   for (double t : options.FaceTolerances)

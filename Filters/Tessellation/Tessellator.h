@@ -36,7 +36,7 @@ struct TessellatorOptions
   std::vector<double> FaceTolerances; ///< Absolute, one a face (pixels); empty: Tolerance.
   SubdivisionMethod Method = SubdivisionMethod::KdTree;
   ErrorMode Error = ErrorMode::Guaranteed;
-  CurveOptions Curves;           ///< How trim curves become polylines (section 5.1).
+  CurveOptions Curves;            ///< How trim curves become polylines (section 5.1).
   double MaximumEdgeLength = 0.0; ///< Model units; 0: no limit.
   double MaximumAngle = 0.0;      ///< Radians between the normals at a triangle's corners; 0: none.
   std::int64_t MaximumFaceTriangles = 4000000; ///< A face that would need more is capped.
@@ -57,9 +57,9 @@ enum class FaceStatus : unsigned char
 struct FaceMesh
 {
   std::vector<Vec3> Points;
-  std::vector<Vec3> Normals; ///< Unit, outward (turned if the face is reversed).
-  std::vector<Vec2> UV;      ///< In the face's own parameter domain.
-  std::vector<int> Triangles; ///< Three point indices each, counter-clockwise from outside.
+  std::vector<Vec3> Normals;   ///< Unit, outward (turned if the face is reversed).
+  std::vector<Vec2> UV;        ///< In the face's own parameter domain.
+  std::vector<int> Triangles;  ///< Three point indices each, counter-clockwise from outside.
   double CertifiedError = 0.0; ///< Model units; an estimate in ErrorMode::Estimated.
   FaceStatus Status = FaceStatus::Ok;
   std::string Message; ///< Why the status is not Ok.

@@ -99,8 +99,7 @@ double TrimRegion::Area2() const
   return area;
 }
 
-std::vector<std::pair<int, int>> TrimRegion::CutLeaves(
-  const SurfaceTree& tree, double margin) const
+std::vector<std::pair<int, int>> TrimRegion::CutLeaves(const SurfaceTree& tree, double margin) const
 {
   std::vector<std::pair<int, int>> cut;
   for (std::size_t s = 0; s < this->Sides.size(); ++s)

@@ -13,7 +13,7 @@ struct BoundaryVertex
 {
   Vec2 UV;
   Vec3 X;
-  std::int64_t Edge = -1;  ///< The edge of the segment that starts here.
+  std::int64_t Edge = -1;    ///< The edge of the segment that starts here.
   double T0 = 0.0, T1 = 0.0; ///< That segment on the edge (T0 > T1 if reversed).
 };
 
