@@ -34,24 +34,61 @@ std::string RangeText(const char* array, std::int64_t start, std::int64_t count,
   return text.str();
 }
 
-/// The reason why `points` (`width` values each, the weight last) can't be control points, or "".
-std::string CheckPackedPoints(const double* points, std::int64_t count, int width)
+/// Larger coordinates, and weights beyond these, would overflow in products of derivatives.
+constexpr double LargestCoordinate = 1e50;
+constexpr double LargestWeight = 1e20;
+
+/// The reason why a control point is bad, or "".
+std::string CheckPoint(const double* coordinates, int dimension, double weight, std::int64_t index)
+{
+  const std::string name = "control point " + std::to_string(index);
+  std::ostringstream text;
+  for (int c = 0; c < dimension; ++c)
+  {
+    if (!std::isfinite(coordinates[c]))
+    {
+      return name + " is not finite";
+    }
+    if (std::abs(coordinates[c]) > LargestCoordinate)
+    {
+      text << name << " has the coordinate " << coordinates[c] << "; the limit is "
+           << LargestCoordinate;
+      return text.str();
+    }
+  }
+  if (!(weight > 0.0) || !std::isfinite(weight))
+  {
+    text << name << " has the weight " << weight << "; weights must be positive and finite";
+  }
+  else if (weight > LargestWeight || weight < 1.0 / LargestWeight)
+  {
+    text << name << " has the weight " << weight << "; the limits are " << 1.0 / LargestWeight
+         << " and " << LargestWeight;
+  }
+  return text.str();
+}
+
+/// True if CheckPoint finds nothing; quick, for the many good ones.
+bool IsGoodPoint(const double* coordinates, int dimension, double weight)
+{
+  bool good = weight >= 1.0 / LargestWeight && weight <= LargestWeight;
+  for (int c = 0; c < dimension; ++c)
+  {
+    good = good && std::abs(coordinates[c]) <= LargestCoordinate;
+  }
+  return good;
+}
+
+/// The reason why `points` (`dimension` coordinates and the weight each) can't be control points,
+/// or "".
+std::string CheckPackedPoints(const double* points, std::int64_t count, int dimension)
 {
   for (std::int64_t i = 0; i < count; ++i)
   {
-    for (int c = 0; c < width; ++c)
+    const double* point = points + i * (dimension + 1);
+    if (!IsGoodPoint(point, dimension, point[dimension]))
     {
-      if (!std::isfinite(points[i * width + c]))
-      {
-        return "control point " + std::to_string(i) + " is not finite";
-      }
-    }
-    if (!(points[i * width + width - 1] > 0.0))
-    {
-      std::ostringstream text;
-      text << "control point " << i << " has the weight " << points[i * width + width - 1]
-           << "; weights must be positive";
-      return text.str();
+      return CheckPoint(point, dimension, point[dimension], i);
     }
   }
   return std::string();
@@ -110,7 +147,7 @@ std::string MakeCurve(const CurveArrays& a, std::int64_t i, CurveView<D>& curve)
   {
     return "a curve of degree 0 needs one point and two finite knots that do not decrease";
   }
-  const std::string reason = CheckPackedPoints(view.Points, count, D + 1);
+  const std::string reason = CheckPackedPoints(view.Points, count, D);
   if (reason.empty())
   {
     curve = view;
@@ -130,16 +167,9 @@ std::string CheckNet(const SurfaceView& s, std::int64_t pointCount)
         " of " + std::to_string(pointCount);
     }
     const double* p = s.Points + 3 * id;
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+    if (!IsGoodPoint(p, 3, s.Weight(k)))
     {
-      return "control point " + std::to_string(k) + " is not finite";
-    }
-    const double w = s.Weight(k);
-    if (!std::isfinite(w) || !(w > 0.0))
-    {
-      std::ostringstream text;
-      text << "control point " << k << " has the weight " << w << "; weights must be positive";
-      return text.str();
+      return CheckPoint(p, 3, s.Weight(k), k);
     }
   }
   return std::string();

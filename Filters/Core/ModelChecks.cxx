@@ -98,19 +98,52 @@ double CurveExcess(const CurveView<2>& curve, const DomainBox& domain)
   return worst;
 }
 
-/// Twice the area enclosed by the loop, in parts of the domain, by a polygon of samples; and the
-/// polygon's length.
-void MeasureLoop(
-  const Model& model, const TrimLoop& loop, const DomainBox& domain, double& area, double& length)
+/// Twice the signed area inside a closed polygon, and its length.
+struct PolygonMeasure
 {
-  constexpr int SamplesPerSpan = 4;
+  double Area = 0.0;
+  double Length = 0.0;
+  explicit PolygonMeasure(const std::vector<Vec2>& polygon)
+  {
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Vec2 a = polygon[i] - polygon[0];
+      const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon[0];
+      this->Area += a[0] * b[1] - a[1] * b[0];
+      this->Length += (b - a).norm();
+    }
+  }
+  bool IsFlat() const
+  {
+    return std::abs(this->Area) <= 1e-12 * std::max(1e-12, this->Length * this->Length);
+  }
+};
+
+/// The loop's control polygon, relative to the domain.
+std::vector<Vec2> ControlPolygon(const Model& model, const TrimLoop& loop, const DomainBox& domain)
+{
+  std::vector<Vec2> polygon;
+  for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+  {
+    const TrimCurve& curve = model.TrimCurves[c];
+    const int last = curve.Geometry.Count - 1;
+    for (int i = 0; i <= last; ++i)
+    {
+      polygon.push_back(domain.Relative(curve.Geometry.Point(curve.Reversed ? last - i : i)));
+    }
+  }
+  return polygon;
+}
+
+/// Points of the loop, relative to the domain: both ends of every span and three between.
+std::vector<Vec2> SampledPolygon(const Model& model, const TrimLoop& loop, const DomainBox& domain)
+{
   std::vector<Vec2> polygon;
   for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
   {
     const TrimCurve& curve = model.TrimCurves[c];
     const Interval range = curve.Geometry.Domain();
-    const int spans = std::max(1, curve.Geometry.Count - curve.Geometry.Degree);
-    const int samples = curve.Geometry.Degree == 1 && spans == 1 ? 1 : SamplesPerSpan * spans;
+    const int samples = 4 * std::max(1, curve.Geometry.Count - curve.Geometry.Degree);
     for (int i = 0; i < samples; ++i)
     {
       const double s = static_cast<double>(i) / samples;
@@ -118,14 +151,7 @@ void MeasureLoop(
       polygon.push_back(domain.Relative(Evaluate(curve.Geometry, range.Clamp(t))));
     }
   }
-  area = length = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-  {
-    const Vec2 a = polygon[i] - polygon[0];
-    const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon[0];
-    area += a[0] * b[1] - a[1] * b[0];
-    length += (b - a).norm();
-  }
+  return polygon;
 }
 
 std::string Part(double value)
@@ -205,9 +231,9 @@ std::string CheckLoops(
     {
       return open;
     }
-    double area, length;
-    MeasureLoop(model, loop, domain, area, length);
-    if (std::abs(area) <= 1e-12 * std::max(1e-12, length * length))
+    // Samples cost more than control points, and a loop without area has them on a line.
+    if (PolygonMeasure(ControlPolygon(model, loop, domain)).IsFlat() &&
+      PolygonMeasure(SampledPolygon(model, loop, domain)).IsFlat())
     {
       warnings.push_back(name + "it encloses no area");
     }
@@ -240,9 +266,7 @@ bool IsNaturallyBounded(const Model& model, const Face& face)
       return false;
     }
   }
-  double area, length;
-  MeasureLoop(model, loop, domain, area, length);
-  return area > 2.0 - 8.0 * NegligiblePart;
+  return PolygonMeasure(SampledPolygon(model, loop, domain)).Area > 2.0 - 8.0 * NegligiblePart;
 }
 
 namespace

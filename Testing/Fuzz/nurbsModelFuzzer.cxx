@@ -11,7 +11,7 @@ namespace
 /// Values that break things.
 double OddReal(FuzzedDataProvider& bytes)
 {
-  static const double odd[] = { 0.0, -0.0, -1.0, 0.5, 1.0, 2.0, 1e100, -1e100, 1e-310, 1e18,
+  static const double odd[] = { 0.0, -0.0, -1.0, 0.5, 1.0, 2.0, 1e100, -1e100, 1e49, 1e-19, 1e-310, 1e18,
     std::nan(""), HUGE_VAL, -HUGE_VAL };
   return bytes.ConsumeBool() ? bytes.PickValueInArray(odd)
                              : bytes.ConsumeFloatingPointInRange(-2.0, 3.0);
@@ -77,6 +77,7 @@ void EvaluateFace(const nurbs::Face& face)
   {
     const double at[2] = { u.Clamp(u.Min + s * u.Length()), v.Clamp(v.Min + s * v.Length()) };
     FUZZ_REQUIRE(nurbs::Evaluate(face.Geometry, at[0], at[1]).array().isFinite().all());
+    FUZZ_REQUIRE(nurbs::Normal(face.Geometry, at[0], at[1]).array().isFinite().all());
   }
 }
 

@@ -205,6 +205,9 @@ TEST(Model, BadControlPoints)
     builder.Data.Points[3 * 4 + 1] = bad;
     ExpectFirstFaceBad(builder, { "control point 4", "not finite" });
   }
+  ModelBuilder far = TwoSquares();
+  far.Data.Points[3 * 4 + 1] = -2e50;
+  ExpectFirstFaceBad(far, { "control point 4", "-2e+50", "limit" });
   for (const std::int64_t id : { std::int64_t(-1), std::int64_t(12), Huge })
   {
     ModelBuilder builder = TwoSquares();
@@ -215,6 +218,12 @@ TEST(Model, BadControlPoints)
 
 TEST(Model, BadWeights)
 {
+  for (const double bad : { 1e-21, 1e21 })
+  {
+    ModelBuilder builder = TwoSquares();
+    builder.Data.Weights[5] = bad;
+    ExpectFirstFaceBad(builder, { "control point 5", "weight", "limits" });
+  }
   for (const double bad : { 0.0, -1.0, NaN, Infinity })
   {
     ModelBuilder builder = TwoSquares();
