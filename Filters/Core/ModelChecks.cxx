@@ -11,12 +11,16 @@ namespace nurbs
 namespace
 {
 
-/// Gap of a loop between curves that share a vertex, as a part of the domain's size.
-constexpr double VertexGapLimit = 0.1;
-/// Gaps and excesses under this part of the domain are rounding.
+/// Differences under this part of the domain are rounding.
 constexpr double NegligiblePart = 1e-6;
+/// Gaps and excesses over this part of the domain are worth a warning; CAD files are full of
+/// smaller ones, and the tessellator closes them.
+constexpr double WarnedPart = 1e-4;
 /// A loop may leave the domain by this part of it (the tessellator clamps), no further.
 constexpr double ExcessLimit = 0.02;
+/// A gap where the two edges meet in a vertex may be this part of the domain; a longer one would be
+/// a missing seam, whose two ends are the same vertex, too.
+constexpr double VertexGapLimit = 0.1;
 /// Two lifted points closer than this part of the face's size are one.
 constexpr double SamePointPart = 1e-3;
 
@@ -57,10 +61,12 @@ Vec2 CurveEnd(const TrimCurve& curve, int end)
   return Evaluate(curve.Geometry, (end == 1) != curve.Reversed ? domain.Max : domain.Min);
 }
 
-/// True if the straight line from a to b in the domain is lifted to (almost) one point: a pole.
-bool IsBridgedByPole(const Face& face, const DomainBox& domain, const Vec2& a, const Vec2& b)
+/// True if the straight line from a to b in the domain, lifted, stays at one point: a pole, or a
+/// gap within `tolerance` of the edges that should meet there.
+bool IsOnePoint(
+  const Face& face, const DomainBox& domain, const Vec2& a, const Vec2& b, double tolerance)
 {
-  const double limit = SamePointPart * NetBox(face.Geometry).diagonal().norm();
+  const double limit = std::max(tolerance, SamePointPart * NetBox(face.Geometry).diagonal().norm());
   const Vec2 ca = domain.Clamp(a), cb = domain.Clamp(b);
   const Vec3 start = Evaluate(face.Geometry, ca[0], ca[1]);
   for (int i = 1; i <= 8; ++i)
@@ -72,6 +78,23 @@ bool IsBridgedByPole(const Face& face, const DomainBox& domain, const Vec2& a, c
     }
   }
   return true;
+}
+
+/// True if both curves' edges name the same vertex where the loop goes from one to the next: the
+/// model says that it is closed there, whatever its geometry.
+bool MeetInVertex(const Model& model, const TrimCurve& before, const TrimCurve& after)
+{
+  if (before.Edge < 0 || after.Edge < 0)
+  {
+    return false;
+  }
+  const std::int64_t last = model.Edges[before.Edge].Vertex[before.Reversed ? 0 : 1];
+  return last >= 0 && last == model.Edges[after.Edge].Vertex[after.Reversed ? 1 : 0];
+}
+
+double EdgeToleranceOf(const Model& model, const TrimCurve& curve)
+{
+  return curve.Edge < 0 ? 0.0 : model.Edges[curve.Edge].Tolerance;
 }
 
 /// Largest excess of the curve over the domain: 0 if its control points are inside (convex hull),
@@ -162,20 +185,6 @@ std::string Part(double value)
   return text.str();
 }
 
-/// True if the edges of two consecutive curves of a loop say that they meet at one vertex: then a gap
-/// is a matter of the vertex's tolerance, which some files stretch.
-bool MeetAtVertex(const Model& model, const TrimLoop& loop, std::int64_t c, std::int64_t next)
-{
-  const TrimCurve& first = model.TrimCurves[loop.FirstCurve + c];
-  const TrimCurve& second = model.TrimCurves[loop.FirstCurve + next];
-  if (first.Edge < 0 || second.Edge < 0)
-  {
-    return false;
-  }
-  const std::int64_t end = model.Edges[first.Edge].Vertex[first.Reversed ? 0 : 1];
-  return end >= 0 && end == model.Edges[second.Edge].Vertex[second.Reversed ? 1 : 0];
-}
-
 /// The reason why the loop is open, or "".
 std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop,
   const DomainBox& domain, double gapLimit, const std::string& name,
@@ -185,18 +194,22 @@ std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop
   for (std::int64_t c = 0; c < loop.CurveCount; ++c)
   {
     const std::int64_t next = (c + 1) % loop.CurveCount;
-    const Vec2 a = CurveEnd(model.TrimCurves[loop.FirstCurve + c], 1);
-    const Vec2 b = CurveEnd(model.TrimCurves[loop.FirstCurve + next], 0);
+    const TrimCurve& before = model.TrimCurves[loop.FirstCurve + c];
+    const TrimCurve& after = model.TrimCurves[loop.FirstCurve + next];
+    const Vec2 a = CurveEnd(before, 1), b = CurveEnd(after, 0);
+    const double tolerance = 2.0 * (EdgeToleranceOf(model, before) + EdgeToleranceOf(model, after));
     const double gap = (domain.Relative(b) - domain.Relative(a)).norm();
-    const double limit = MeetAtVertex(model, loop, c, next) ? VertexGapLimit : 0.0;
-    if (!(gap <= std::max(gapLimit, limit)) && !IsBridgedByPole(face, domain, a, b))
+    const bool closed = gap <= gapLimit ||
+      (gap <= VertexGapLimit && MeetInVertex(model, before, after)) ||
+      IsOnePoint(face, domain, a, b, tolerance);
+    if (!closed)
     {
       return name + "it is open: between its trim curves " + std::to_string(c) + " and " +
         std::to_string(next) + " is a gap of " + Part(gap);
     }
     largest = std::max(largest, gap);
   }
-  if (largest > NegligiblePart)
+  if (largest > WarnedPart)
   {
     warnings.push_back(name + "it has a gap of " + Part(largest));
   }
@@ -222,7 +235,7 @@ std::string CheckLoops(
     {
       return name + "it leaves the surface's domain by " + Part(excess);
     }
-    if (excess > NegligiblePart)
+    if (excess > WarnedPart)
     {
       warnings.push_back(name + "it leaves the surface's domain by " + Part(excess));
     }
@@ -390,7 +403,7 @@ void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
       }
     }
   });
-  std::int64_t count = 0;
+  std::int64_t count = 0, first = -1;
   for (std::size_t e = 0; e < moved.size(); ++e)
   {
     Edge& edge = model.Edges[e];
@@ -406,15 +419,16 @@ void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
     }
     if (moved[e])
     {
-      ++count;
+      first = ++count == 1 ? static_cast<std::int64_t>(e) : first;
       ReleaseEdge(result, edge, lifted[e][1]);
     }
   }
   if (count > 0)
   {
     result.Problems.push_back({ ModelProblem::Level::Warning, -1,
-      std::to_string(count) +
-        " edges do not fit their faces, as after moving points; their 3D curves are ignored" });
+      std::to_string(count) + " of " + std::to_string(moved.size()) +
+        " edges do not fit their faces (the first is edge " + std::to_string(first) +
+        "), as after moving points; their 3D curves are ignored" });
   }
 }
 

@@ -11,9 +11,9 @@ namespace nurbs
 /// Checks the loops of a face of `model`.
 ///
 /// Returns the reason why the face can't be trimmed, or "": a loop is open (its gap is over
-/// `gapLimit` of the domain's size and not bridged by a point of the surface, as at a pole) or
-/// leaves the domain by more than a fiftieth of it. `warnings` receives smaller gaps and excesses
-/// (over 1e-6 of the domain) and loops without area.
+/// `gapLimit` of the domain's size, the edges there do not meet in one vertex, and on the surface
+/// it is over twice their tolerance and no point, as it is at a pole) or leaves the domain by more than a fiftieth of it. `warnings`
+/// receives smaller gaps and excesses (over 1e-4 of the domain) and loops without area.
 std::string CheckLoops(
   const Model& model, const Face& face, double gapLimit, std::vector<std::string>& warnings);
 

@@ -344,11 +344,31 @@ TEST(Model, OpenLoopIsAnErrorWithItsGap)
   builder.Data.TrimPoints[3 * 8] += 0.25; // The hole's start moves, its end stays.
   ExpectFirstFaceBad(builder, { "loop 1", "open", "trim curves 2 and 0", "0.25" });
   builder = TwoSquares();
-  builder.Data.TrimPoints[3 * 8] += 1e-4;
-  ExpectOneWarning(builder, 0, "loop 1: it has a gap of 0.0001 of the domain");
+  builder.Data.TrimPoints[3 * 8] += 1e-3;
+  ExpectOneWarning(builder, 0, "loop 1: it has a gap of 0.001 of the domain");
   builder = TwoSquares();
-  builder.Data.TrimPoints[3 * 8] += 1e-9;
+  builder.Data.TrimPoints[3 * 8] += 1e-5;
   EXPECT_TRUE(nurbs::AssembleModel(builder.Arrays()).Problems.empty());
+}
+
+TEST(Model, GapWithinItsEdgesToleranceIsAWarning)
+{
+  ModelBuilder builder = TwoSquares();
+  builder.Data.TrimPoints[0] += 0.03; // The first curve starts late: edges 3 and 0 should meet.
+  builder.Data.EdgeVertices[0] = -1;
+  ExpectFirstFaceBad(builder, { "loop 0", "open", "trim curves 3 and 0", "0.03" });
+  builder.Data.EdgeTolerance[0] = builder.Data.EdgeTolerance[3] = 0.02;
+  ExpectOneWarning(builder, 0, "loop 0: it has a gap of 0.03 of the domain");
+}
+
+TEST(Model, GapWhereEdgesMeetInAVertexIsAWarning)
+{
+  ModelBuilder builder = TwoSquares();
+  builder.Data.TrimPoints[0] += 0.03;
+  builder.Data.EdgeTolerance[0] = 0.01; // So that the edge is not taken for one left behind.
+  ExpectOneWarning(builder, 0, "loop 0: it has a gap of 0.03 of the domain");
+  builder.Data.TrimPoints[0] += 0.1; // Too far for any vertex.
+  ExpectFirstFaceBad(builder, { "loop 0", "open" });
 }
 
 TEST(Model, LoopOutsideTheDomain)
@@ -441,7 +461,7 @@ TEST(Model, EdgesLeftBehindByMovedPointsAreReleased)
   {
     coordinate = 3.0 * coordinate + 1.0;
   }
-  ExpectOneWarning(builder, -1, "7 edges do not fit");
+  ExpectOneWarning(builder, -1, "7 of 7 edges do not fit their faces (the first is edge 0)");
   const AssembledModel moved = nurbs::AssembleModel(builder.Arrays());
   for (const nurbs::Edge& edge : moved.Model.Edges)
   {
