@@ -199,7 +199,8 @@ void vtkNURBSModel::CopyFaceAttributes(
   for (int i = 0; i < source->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* from = source->GetAbstractArray(i);
-    if (IsStructureArray(from->GetName()) || !from->GetName())
+    if (IsStructureArray(from->GetName()) || !from->GetName() ||
+      from->GetNumberOfTuples() != grid->GetNumberOfCells())
     {
       continue;
     }
@@ -215,7 +216,7 @@ void vtkNURBSModel::CopyFaceAttributes(
     }
     target->AddArray(to);
   }
-  if (!source->HasArray(names::FaceId))
+  if (!target->HasArray(names::FaceId))
   {
     vtkNew<vtkTypeInt64Array> ids;
     ids->SetName(names::FaceId);

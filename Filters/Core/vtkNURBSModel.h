@@ -109,7 +109,8 @@ public:
 
   /**
    * Copies the faces' attributes (all cell arrays but those of IsStructureArray) to `target`: tuple
-   * i of the target is that of cell `faces[i]`. FaceId is made from cell indices if there is none.
+   * i of the target is that of cell `faces[i]`. Arrays that do not have one tuple a cell are left
+   * out (Validate warns of them). FaceId is made from cell indices if there is none.
    */
   static void CopyFaceAttributes(
     vtkUnstructuredGrid* grid, vtkIdTypeArray* faces, vtkDataSetAttributes* target);

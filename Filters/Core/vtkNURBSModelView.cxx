@@ -34,6 +34,7 @@ struct vtkNURBSModelView::Internals
 
   void Collect(vtkUnstructuredGrid* grid);
   void CollectCells(vtkUnstructuredGrid* grid);
+  void CheckCells(vtkUnstructuredGrid* grid);
   Integers ViewIntegers(vtkDataArray* array);
   Reals ViewReals(vtkDataArray* array);
   vtkDataArray* Find(vtkFieldData* data, const char* name, int components, bool required);
@@ -206,6 +207,33 @@ void vtkNURBSModelView::Internals::Collect(vtkUnstructuredGrid* grid)
   a.VertexPoints = this->FindReals(field, names::VertexPoints, 3, false);
 }
 
+/// Warns of cells of other types and of attributes that do not fit the cells.
+void vtkNURBSModelView::Internals::CheckCells(vtkUnstructuredGrid* grid)
+{
+  std::vector<ModelProblem>& problems = this->Assembled.Problems;
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  for (vtkIdType i = 0; types && i < types->GetNumberOfTuples(); ++i)
+  {
+    if (types->GetValue(i) != VTK_POLY_VERTEX && this->Assembled.FaceErrors[i].empty())
+    {
+      problems.push_back({ ModelProblem::Level::Warning, i,
+        "the cell's type is " + std::to_string(types->GetValue(i)) +
+          " instead of VTK_POLY_VERTEX" });
+    }
+  }
+  for (int i = 0; i < grid->GetCellData()->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = grid->GetCellData()->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != grid->GetNumberOfCells())
+    {
+      problems.push_back({ ModelProblem::Level::Warning, -1,
+        std::string("cell array ") + (array->GetName() ? array->GetName() : "without a name") +
+          " has " + std::to_string(array->GetNumberOfTuples()) + " tuples for " +
+          std::to_string(grid->GetNumberOfCells()) + " cells" });
+    }
+  }
+}
+
 vtkNURBSModelView::vtkNURBSModelView(vtkUnstructuredGrid* grid)
   : Content(new Internals)
 {
@@ -218,16 +246,7 @@ vtkNURBSModelView::vtkNURBSModelView(vtkUnstructuredGrid* grid)
   content.Assembled = nurbs::AssembleModel(content.Arrays, nurbs::AssembleOptions(), SMPFor);
   std::vector<ModelProblem>& problems = content.Assembled.Problems;
   problems.insert(problems.begin(), content.ArrayProblems.begin(), content.ArrayProblems.end());
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
-  for (vtkIdType i = 0; types && i < types->GetNumberOfTuples(); ++i)
-  {
-    if (types->GetValue(i) != VTK_POLY_VERTEX && content.Assembled.FaceErrors[i].empty())
-    {
-      problems.push_back({ ModelProblem::Level::Warning, i,
-        "the cell's type is " + std::to_string(types->GetValue(i)) +
-          " instead of VTK_POLY_VERTEX" });
-    }
-  }
+  content.CheckCells(grid);
 }
 
 vtkNURBSModelView::~vtkNURBSModelView() = default;

@@ -21,15 +21,20 @@ class vtkUnstructuredGrid;
 class VTKNURBSFILTERSCORE_EXPORT vtkNURBSModelView
 {
 public:
+  /// Checks and assembles the grid, in parallel over its faces (vtkSMPTools). Never throws on bad
+  /// data: see GetProblems. A null grid gives an empty model.
   explicit vtkNURBSModelView(vtkUnstructuredGrid* grid);
   ~vtkNURBSModelView();
   vtkNURBSModelView(const vtkNURBSModelView&) = delete;
   vtkNURBSModelView& operator=(const vtkNURBSModelView&) = delete;
 
-  /// The model: face i is cell i. A face with an error has an empty net and no loop.
+  /// The model: face i is cell i; loops, trim curves, edges and vertices have the indices of the
+  /// field data. A face with an error has an empty net (Geometry.Size() 0) and no loop. Edges that
+  /// were left behind when points were moved have no curve (see nurbs::AssembleOptions).
   const nurbs::Model& GetModel() const;
 
-  /// Why the face of this cell can't be used; "" if it can. Does not name the cell.
+  /// Why the face of this cell can't be used; "" if it can. Does not name the cell. Throws
+  /// std::out_of_range if there is no such cell.
   const std::string& GetFaceError(vtkIdType cell) const;
 
   /// All errors and warnings.

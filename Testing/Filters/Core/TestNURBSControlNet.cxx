@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../../testMessageKeeper.h"
 #include "vtkNURBSControlNet.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSShapeSource.h"
 
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -17,17 +17,6 @@
 
 namespace
 {
-
-class WarningKeeper : public vtkCommand
-{
-public:
-  static WarningKeeper* New() { return new WarningKeeper; }
-  void Execute(vtkObject*, unsigned long, void* text) override
-  {
-    this->Text = static_cast<const char*>(text);
-  }
-  std::string Text;
-};
 
 struct Net
 {
@@ -116,12 +105,11 @@ TEST(ControlNet, BadFacesAreNamedAndTheOthersStay)
   vtkNew<vtkUnstructuredGrid> grid;
   grid->DeepCopy(net.Source->GetOutput());
   grid->GetPoints()->SetPoint(16 * 5, std::nan(""), 0, 0);
-  vtkNew<WarningKeeper> keeper;
+  vtkNew<MessageKeeper> keeper;
   net.Filter->AddObserver(vtkCommand::WarningEvent, keeper);
   net.Filter->SetInputData(grid);
   EXPECT_EQ(net.Update()->GetNumberOfVerts(), 31);
-  EXPECT_NE(keeper->Text.find("cell 5 (FaceId 5): control point 0"), std::string::npos)
-    << keeper->Text;
+  EXPECT_TRUE(keeper->Says("cell 5 (FaceId 5): control point 0")) << keeper->Text;
 }
 
 } // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model as VTK data: it stays valid through ordinary VTK filters and files, arrays of other
 // types are converted, and wrong ones are named.
+#include "vtkNURBSControlNet.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
+#include "vtkNURBSToBezierCells.h"
 
 #include "vtkArrayCalculator.h"
 #include "vtkCellArray.h"
@@ -32,6 +34,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
 
 namespace
 {
@@ -329,6 +332,72 @@ TEST(ModelArrays, EmptyAndForeignGrids)
   triangle->Allocate(1);
   triangle->InsertNextCell(VTK_TRIANGLE, 3, ids);
   ExpectError(triangle, "array Degree is missing");
+}
+
+/// Removes, retypes, resizes or overwrites one array of `data`.
+void Damage(vtkFieldData* data, std::mt19937& random)
+{
+  const auto pick = [&random](int count) { return static_cast<int>(random() % count); };
+  vtkAbstractArray* array = data->GetAbstractArray(pick(data->GetNumberOfArrays()));
+  vtkDataArray* numbers = vtkDataArray::SafeDownCast(array);
+  const int types[] = { VTK_CHAR, VTK_UNSIGNED_INT, VTK_FLOAT, VTK_DOUBLE, VTK_ID_TYPE, VTK_BIT };
+  const double values[] = { -1, 0, 1, 2, 26, 1e9, 9e18, -9e18, 1e300, std::nan("") };
+  switch (numbers && array->GetNumberOfTuples() > 0 ? pick(5) : 0)
+  {
+    case 0:
+      data->RemoveArray(array->GetName());
+      break;
+    case 1:
+      array->Resize(pick(static_cast<int>(array->GetNumberOfTuples()) + 1));
+      break;
+    case 2:
+    {
+      vtkSmartPointer<vtkDataArray> other;
+      other.TakeReference(vtkDataArray::CreateDataArray(types[pick(6)]));
+      other->SetName(array->GetName());
+      other->SetNumberOfComponents(pick(4) ? array->GetNumberOfComponents() : 1 + pick(4));
+      other->SetNumberOfTuples(array->GetNumberOfTuples());
+      other->Fill(1.0);
+      data->AddArray(other);
+      break;
+    }
+    default:
+      numbers->SetComponent(pick(static_cast<int>(array->GetNumberOfTuples())),
+        pick(array->GetNumberOfComponents()), values[pick(10)]);
+  }
+}
+
+TEST(ModelArrays, NoDamageCrashesTheFilters)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  const Grid sound = Make(vtkNURBSShapeSource::CYLINDER);
+  std::mt19937 random(7);
+  int good = 0, bad = 0;
+  for (int k = 0; k < 500; ++k)
+  {
+    const Grid grid = Grid::New();
+    grid->DeepCopy(sound);
+    for (std::mt19937::result_type damage = random() % 3; damage-- > 0;)
+    {
+      vtkFieldData* kinds[] = { grid->GetPointData(), grid->GetCellData(), grid->GetFieldData() };
+      vtkFieldData* data = kinds[random() % 3];
+      if (data->GetNumberOfArrays() > 0)
+      {
+        Damage(data, random);
+      }
+    }
+    ++(vtkNURBSModel::Validate(grid).empty() ? good : bad);
+    vtkNew<vtkNURBSControlNet> net;
+    net->SetInputData(grid);
+    net->GenerateQuadsOn();
+    net->Update();
+    vtkNew<vtkNURBSToBezierCells> cells;
+    cells->SetInputData(grid);
+    cells->Update();
+  }
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_GT(good, 100);
+  EXPECT_GT(bad, 100);
 }
 
 TEST(ModelArrays, UnconvertedFacesAreKept)

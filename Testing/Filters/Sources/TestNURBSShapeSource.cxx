@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shapes against closed forms: points, areas, loops that close, edges that fit their faces.
+#include "../../testMessageKeeper.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
 
-#include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
@@ -370,21 +370,9 @@ TEST(ShapeSource, CarBodyHasAnyNumberOfFacesThatShareEdges)
   }
 }
 
-/// Keeps the text of the last error instead of printing it.
-class ErrorKeeper : public vtkCommand
-{
-public:
-  static ErrorKeeper* New() { return new ErrorKeeper; }
-  void Execute(vtkObject*, unsigned long, void* text) override
-  {
-    this->Text = static_cast<const char*>(text);
-  }
-  std::string Text;
-};
-
 TEST(ShapeSource, ImpossibleShapesAreErrors)
 {
-  vtkNew<ErrorKeeper> keeper, pipeline;
+  vtkNew<MessageKeeper> keeper, pipeline;
   vtkNew<vtkNURBSShapeSource> source;
   source->AddObserver(vtkCommand::ErrorEvent, keeper);
   source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipeline);
@@ -392,7 +380,7 @@ TEST(ShapeSource, ImpossibleShapesAreErrors)
   source->SetRadius(1.0);
   source->SetTubeRadius(1.0);
   source->Update();
-  EXPECT_NE(keeper->Text.find("tube radius"), std::string::npos) << keeper->Text;
+  EXPECT_TRUE(keeper->Says("tube radius")) << keeper->Text;
   EXPECT_EQ(source->GetOutput()->GetNumberOfCells(), 0);
 
   for (const int degree : { 0, 26 })
@@ -401,7 +389,7 @@ TEST(ShapeSource, ImpossibleShapesAreErrors)
     source->SetShapeToSheet();
     source->SetSheetDegree(degree, 3);
     source->Update();
-    EXPECT_NE(keeper->Text.find("degree"), std::string::npos) << keeper->Text;
+    EXPECT_TRUE(keeper->Says("degree")) << keeper->Text;
   }
 }
 
