@@ -216,7 +216,8 @@ void vtkNURBSModel::CopyFaceAttributes(
     }
     target->AddArray(to);
   }
-  if (!target->HasArray(names::FaceId))
+  vtkAbstractArray* identity = source->GetAbstractArray(names::FaceId);
+  if (!identity || identity->GetNumberOfTuples() != grid->GetNumberOfCells())
   {
     vtkNew<vtkTypeInt64Array> ids;
     ids->SetName(names::FaceId);

@@ -11,8 +11,8 @@ namespace
 /// Values that break things.
 double OddReal(FuzzedDataProvider& bytes)
 {
-  static const double odd[] = { 0.0, -0.0, -1.0, 0.5, 1.0, 2.0, 1e100, -1e100, 1e49, 1e-19, 1e-310, 1e18,
-    std::nan(""), HUGE_VAL, -HUGE_VAL };
+  static const double odd[] = { 0.0, -0.0, -1.0, 0.5, 1.0, 2.0, 1e100, -1e100, 1e49, 1e-19, 1e-310,
+    1e18, std::nan(""), HUGE_VAL, -HUGE_VAL };
   return bytes.ConsumeBool() ? bytes.PickValueInArray(odd)
                              : bytes.ConsumeFloatingPointInRange(-2.0, 3.0);
 }
