@@ -194,7 +194,9 @@ void LoadIges(const std::string& path, const Message_ProgressRange& range, CADDo
 
 void LoadBrep(const std::string& path, const Message_ProgressRange& range, CADDocument& document)
 {
+  // A read that fails throws: OpenCASCADE does not ask, and would go on with garbage or for ever.
   std::ifstream file(path, std::ios::binary);
+  file.exceptions(std::ios::failbit | std::ios::badbit);
   TopoDS_Shape shape;
   if (document.Format == CADFormat::BinaryBREP)
   {
@@ -251,6 +253,11 @@ CADDocument LoadCADFile(const std::string& path, const CADProgress& report)
     const char* text = failure.GetMessageString();
     throw Error("\"" + path + "\" is a broken " + NameOf(document.Format) +
       " file: " + (text && *text ? text : failure.DynamicType()->Name()));
+  }
+  catch (const std::ios_base::failure&)
+  {
+    throw Error("\"" + path + "\" is a truncated or broken " + NameOf(document.Format) +
+      " file: it ends, or holds a wrong value, where a number is expected");
   }
   catch (const std::bad_alloc&)
   {

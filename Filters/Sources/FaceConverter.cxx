@@ -536,13 +536,11 @@ Vec3 Converter::Lift(const CurveView<2>& trim, double t) const
 double Converter::Deviation(const Part::TrimCurve& trim) const
 {
   const Part::Edge& edge = (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)];
-  double distance = 0.0;
-  for (const double t : SampleParameters(trim.Geometry.View(), edge.Geometry.View()))
-  {
-    const Vec3 onEdge = Evaluate(edge.Geometry.View(), t);
-    distance = std::max(distance, (this->Lift(trim.Geometry.View(), t) - onEdge).norm());
-  }
-  return distance;
+  return LargestValue(
+    [&](double t) {
+      return (this->Lift(trim.Geometry.View(), t) - Evaluate(edge.Geometry.View(), t)).norm();
+    },
+    SampleParameters(trim.Geometry.View(), edge.Geometry.View()));
 }
 
 /// Tells how far the edges are and where the face sees the vertices.

@@ -298,8 +298,8 @@ void Converter::Gather(std::vector<FaceResult>& faces)
     for (const FaceResult::Deviation& d : face.Deviations)
     {
       double& tolerance = this->Result.Edges[static_cast<std::size_t>(d.Edge)].Tolerance;
-      // Samples miss the very peak by a little.
-      tolerance = std::max(tolerance, 1.1 * d.Distance + 1e-14 * this->Table.Size);
+      // The search for the largest distance may miss it by a little.
+      tolerance = std::max(tolerance, 1.05 * d.Distance + 1e-14 * this->Table.Size);
     }
     for (const FaceResult::Pole& pole : face.Poles)
     {

@@ -234,7 +234,7 @@ std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3
   const Interval domain = trim.Domain();
   // Even, so that the middle of a span, where a curve may touch the domain's border, is among them.
   const int spans = static_cast<int>(std::max<std::size_t>(knots.size() / 2, 1));
-  const int inSpan = std::max(8, 32 / spans);
+  const int inSpan = std::max(2 * std::max(trim.Degree, edge.Degree) + 4, 32 / spans);
   std::vector<double> samples{ domain.Min };
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
   {
@@ -246,6 +246,39 @@ std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3
     }
   }
   return samples;
+}
+
+double LargestValue(
+  const std::function<double(double)>& function, const std::vector<double>& samples)
+{
+  std::vector<double> values;
+  for (const double t : samples)
+  {
+    values.push_back(function(t));
+  }
+  double largest = *std::max_element(values.begin(), values.end());
+  const double worth = 0.6 * largest;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t after = std::min(i + 1, samples.size() - 1);
+    if (values[i] < worth || values[i] < values[before] || values[i] < values[after])
+    {
+      continue;
+    }
+    double a = samples[before];
+    double b = samples[after];
+    for (int step = 0; step < 12; ++step)
+    {
+      const double p = a + 0.382 * (b - a);
+      const double q = a + 0.618 * (b - a);
+      const double fp = function(p);
+      const double fq = function(q);
+      largest = std::max(largest, std::max(fp, fq));
+      (fp < fq ? a : b) = fp < fq ? p : q;
+    }
+  }
+  return largest;
 }
 
 } // namespace nurbs

@@ -45,4 +45,9 @@ void AppendCrossings(const std::function<double(double)>& function,
 /// Parameters at which a trim curve is compared with its edge: several in every span of either.
 std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3>& edge);
 
+/// The largest value of a function over the range of the sorted samples: the samples' own, and the
+/// tops between neighbours of every local maximum that is not far lower.
+double LargestValue(
+  const std::function<double(double)>& function, const std::vector<double>& samples);
+
 } // namespace nurbs

@@ -5,6 +5,7 @@
 #include "vtkCellData.h"
 #include "vtkDataAssembly.h"
 #include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSModel.h"
@@ -186,10 +187,12 @@ int vtkNURBSCADReader::RequestData(
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   output->Initialize();
   this->ParseSeconds = this->ConvertSeconds = 0.0;
+  this->SetErrorCode(vtkErrorCode::NoError);
   if (!this->FileName || !*this->FileName)
   {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("FileName is not set");
-    return 0;
+    return 1;
   }
 
   const double start = Now();
@@ -205,9 +208,10 @@ int vtkNURBSCADReader::RequestData(
   {
     if (!this->GetAbortExecute())
     {
+      this->SetErrorCode(vtkErrorCode::FileFormatError);
       vtkErrorMacro("Cannot read the file: " << problem.what());
     }
-    return 0;
+    return 1; // Zero would make the executive report a second error.
   }
   const double parsed = Now();
   this->ParseSeconds = parsed - start;
@@ -221,7 +225,7 @@ int vtkNURBSCADReader::RequestData(
       ParsePart + (1.0 - ParsePart) * double(parts.size()) / double(document.Parts.size()));
     if (this->GetAbortExecute())
     {
-      return 0;
+      return 1;
     }
   }
 

@@ -17,7 +17,7 @@
  * `FaceId` counts the faces in the order of OpenCASCADE's TopExp_Explorer over the file's root
  * shape, each instance counted. `Color` is there if the file has any colour.
  *
- * A file that can't be read gives one error and an empty output. A face that can't be converted is
+ * A file that can't be read gives one error, an ErrorCode that is not 0 and an empty output. A face that can't be converted is
  * named in a warning and in the field data `UnconvertedFaces`; the others are kept.
  *
  * Reports progress and obeys AbortExecute.
