@@ -315,14 +315,13 @@ public:
     std::vector<double>& ts = this->Out.Parameters;
     ts = ApproximateCurve(
       this->Pieces, CurveShare * this->Tolerance, this->Options.Curves, this->Out.Error);
-    if (ts.size() < 2)
-    {
-      ts = { this->Domain.Min, this->Domain.Max };
-    }
-    ts.front() = this->Domain.Min;
-    ts.back() = this->Domain.Max;
+    std::vector<double> inner;
+    inner.swap(ts);
+    ts = { this->Domain.Min, this->Domain.Max };
+    this->Insert(inner);
     std::vector<double> forced = extra;
     this->CreaseCrossings(forced);
+    std::sort(forced.begin(), forced.end());
     this->Insert(forced);
     this->LimitLength();
     const Edge& edge = this->Data.Edges[this->EdgeIndex];
@@ -407,18 +406,24 @@ private:
     }
   }
 
-  // Adds parameters that are not too near to others.
+  // Merges ascending parameters in, leaving out those that are too near to others.
   void Insert(const std::vector<double>& add)
   {
+    const std::vector<double> old = this->Out.Parameters;
+    const double eps = 1e-7 * this->Domain.Length();
     std::vector<double>& ts = this->Out.Parameters;
-    const double eps = 1e-9 * this->Domain.Length();
-    for (double t : add)
+    ts.clear();
+    std::size_t k = 0;
+    for (double t : old)
     {
-      const auto at = std::lower_bound(ts.begin(), ts.end(), t);
-      if (at != ts.begin() && at != ts.end() && *at - t > eps && t - *(at - 1) > eps)
+      for (; k < add.size() && add[k] < t; ++k)
       {
-        ts.insert(at, t);
+        if (!ts.empty() && add[k] - ts.back() > eps && t - add[k] > eps)
+        {
+          ts.push_back(add[k]);
+        }
       }
+      ts.push_back(t);
     }
   }
 

@@ -144,7 +144,7 @@ private:
       {
         for (double crease : this->Job.Tree->Creases(d))
         {
-          if (std::abs(p[d] - crease) < 10.0 * eps)
+          if (std::abs(p[d] - crease) < 3e3 * eps)
           {
             p[d] = crease;
           }
