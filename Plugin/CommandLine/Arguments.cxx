@@ -43,7 +43,7 @@ const char* const TessellateExamples = R"(Formats, by the ending of -o:
   .glb        binary glTF in metres, y up: one mesh a name, one material a colour
   .ply        binary, with normals, parameters and the faces' colours
   .stl        binary, triangles only
-  .obj        with normals and parameters
+  .obj        with normals, all digits
   .stl, .ply and .glb keep 32-bit coordinates; a warning says so where that matters.
 
 Examples:
@@ -198,8 +198,8 @@ void AddTessellate(CLI::App& app, Arguments& arguments)
     ->required();
   AddTolerance(command, arguments, false);
   command
-    ->add_flag(
-      "--merge", arguments.MergePoints, "merge coincident points of neighbouring faces into one")
+    ->add_flag("--merge", arguments.MergePoints,
+      "merge the points of neighbouring faces, which leaves no normals")
     ->group("How finely");
   command->group("Commands");
   command->footer(TessellateExamples);

@@ -22,7 +22,7 @@ struct Report
   bool Tessellated = false; ///< whether the figures from here to FailedFaces say anything
   std::int64_t Triangles = 0;
   std::int64_t Points = 0;
-  double Tolerance = 0.0;      ///< absolute, in Unit; of pixels: the largest that was used
+  double Tolerance = 0.0;      ///< absolute, in Unit; of pixels: the smallest of all faces
   double CertifiedError = 0.0; ///< largest of all faces, in Unit; an estimate if not Guaranteed
   bool Guaranteed = true;
   std::int64_t OpenEdges = 0; ///< edges with one triangle, coordinates compared exactly

@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <sstream>
 
 namespace nurbs
 {
@@ -142,25 +143,41 @@ int Info(const Arguments& arguments)
 void PrintSummary(const Session& session)
 {
   const Report& figures = session.Figures;
-  if (session.Options.Quiet)
+  const Arguments& options = session.Options;
+  if (options.Quiet)
   {
     return;
   }
-  std::cout << session.Options.Output << ": " << figures.Faces << " faces, " << figures.Triangles
-            << " triangles, " << (figures.Guaranteed ? "error at most " : "estimated error ")
-            << figures.CertifiedError << (figures.Unit.empty() ? "" : " ") << figures.Unit << " of "
-            << figures.Tolerance << " allowed";
-  if (figures.OpenEdges > 0)
+  const std::string unit = figures.Unit.empty() ? "" : " " + figures.Unit;
+  std::ostringstream text;
+  text.precision(3);
+  text << options.Output << ": " << figures.Faces << " faces, " << figures.Triangles
+       << " triangles, " << (figures.Guaranteed ? "error at most " : "estimated error ")
+       << figures.CertifiedError << unit << " of ";
+  if (options.Kind == ToleranceKind::Pixels)
   {
-    std::cout << ", " << figures.OpenEdges << " open edges";
+    text << options.Tolerance << " pixels";
   }
-  if (figures.FailedFaces > 0)
+  else
   {
-    std::cout << ", " << figures.FailedFaces << " faces failed";
+    text << figures.Tolerance << unit;
   }
-  std::cout << " (" << figures.ReadSeconds << " s to read, " << figures.TessellateSeconds
-            << " s to tessellate, " << figures.WriteSeconds << " s to "
-            << (session.Options.What == Command::Render ? "draw" : "write") << ")\n";
+  text << " allowed";
+  const auto mention = [&text](std::int64_t count, const char* what) {
+    if (count > 0)
+    {
+      text << ", " << count << what;
+    }
+  };
+  mention(figures.OpenEdges, " open edges");
+  mention(figures.RepairedFaces, " faces repaired");
+  mention(figures.CappedFaces, " faces beyond the tolerance");
+  mention(figures.FailedFaces, " faces failed");
+  mention(figures.Unconverted, " faces not converted");
+  text << " (read " << figures.ReadSeconds << " s, tessellate " << figures.TessellateSeconds
+       << " s, " << (options.What == Command::Render ? "draw " : "write ") << figures.WriteSeconds
+       << " s)";
+  std::cout << text.str() << "\n";
 }
 
 int TessellateCommand(const Arguments& arguments)

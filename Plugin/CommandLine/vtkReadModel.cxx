@@ -11,6 +11,7 @@
 #include "vtkCommand.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
 #include "vtkNew.h"
@@ -77,6 +78,27 @@ std::vector<Data*> LeavesOf(vtkDataObject* data)
     }
   }
   return leaves;
+}
+
+// The field arrays of the first leaf, followed by those of the same name of the others.
+vtkSmartPointer<vtkFieldData> JoinedFields(const std::vector<vtkPolyData*>& leaves)
+{
+  auto joined = vtkSmartPointer<vtkFieldData>::New();
+  joined->DeepCopy(leaves[0]->GetFieldData());
+  for (int i = 0; i < joined->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = joined->GetAbstractArray(i);
+    for (size_t leaf = 1; leaf < leaves.size(); ++leaf)
+    {
+      vtkAbstractArray* more = leaves[leaf]->GetFieldData()->GetAbstractArray(array->GetName());
+      if (more && more->GetDataType() == array->GetDataType() &&
+        more->GetNumberOfComponents() == array->GetNumberOfComponents())
+      {
+        array->InsertTuples(array->GetNumberOfTuples(), more->GetNumberOfTuples(), 0, more);
+      }
+    }
+  }
+  return joined;
 }
 
 } // namespace
@@ -182,7 +204,9 @@ vtkSmartPointer<vtkPolyData> Joined(vtkDataObject* output)
   }
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   append->Update();
-  return append->GetOutput();
+  vtkSmartPointer<vtkPolyData> mesh = append->GetOutput();
+  mesh->SetFieldData(JoinedFields(leaves));
+  return mesh;
 }
 
 } // namespace nurbs

@@ -171,6 +171,7 @@ Triangles Tessellate(vtkDataObject* model, const Arguments& arguments, vtkCamera
   }
   report.FailedFaces = tessellator->GetNumberOfFailedFaces();
   report.RepairedFaces = tessellator->GetNumberOfRepairedFaces();
+  report.CappedFaces = tessellator->GetNumberOfCappedFaces();
   return triangles;
 }
 

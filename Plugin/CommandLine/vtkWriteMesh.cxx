@@ -90,7 +90,7 @@ vtkSmartPointer<vtkPolyData> WithFloats(vtkPolyData* mesh)
   {
     copy->GetPointData()->SetNormals(Floats(normals));
   }
-  if (vtkDataArray* parameters = mesh->GetPointData()->GetTCoords())
+  if (vtkDataArray* parameters = mesh->GetPointData()->GetArray("UV"))
   {
     copy->GetPointData()->SetTCoords(Floats(parameters));
   }
@@ -109,7 +109,7 @@ std::string Tail(const std::string& path, std::streamoff count)
 }
 
 // Some of VTK's writers do not notice a full disk: the last triangle's corners must be in the file.
-// An .obj counts them from 1 and ends with "f 1/1/1 2/2/2 3/3/3"; a binary .ply ends with a byte 3,
+// An .obj counts them from 1 and ends with "f 1//1 2//2 3//3"; a binary .ply ends with a byte 3,
 // three 32-bit numbers, and perhaps a colour; a binary .stl has no numbers, but a known size.
 bool IsComplete(vtkPolyData* mesh, const std::string& path, const std::string& ending)
 {
@@ -338,8 +338,12 @@ std::vector<std::string> WriteMesh(
   }
   if (ending == ".obj")
   {
+    // No texture coordinates: the writer takes u = -1, which a surface may have, for "none here".
+    vtkNew<vtkPolyData> copy;
+    copy->ShallowCopy(mesh);
+    copy->GetPointData()->SetActiveTCoords(nullptr);
     vtkNew<vtkOBJWriter> writer;
-    writer->SetInputData(mesh);
+    writer->SetInputData(copy);
     Write(writer.Get(), path);
   }
   else if (ending == ".stl")

@@ -274,7 +274,7 @@ class Tessellate(Folder):
         _, apart = self.run_to(".ply", model=LINKRODS)
         _, merged = self.run_to(".ply", "--merge", model=LINKRODS)
         self.assertLess(merged["points"], apart["points"])
-        self.assertEqual(merged["triangles"], apart["triangles"])
+        self.assertLessEqual(merged["triangles"], apart["triangles"])
         self.assertEqual(merged["open_edges"], apart["open_edges"])
 
     def test_rounding_to_floats_is_told(self):
