@@ -2,7 +2,11 @@
 /// @file Surface.h
 /// @brief Tensor-product rational B-spline surfaces: views, knot insertion, Bezier form, splitting.
 ///
-/// Control points are Cartesian, u fastest: point (i, j) has index i + j * Count[0].
+/// Control points are Cartesian, u fastest: point (i, j) has index i + j * Count[0]. Directions are
+/// 0 (u) and 1 (v). The functions take any valid knot vectors (CheckKnots), clamped or not, and
+/// positive weights, and do not check it. Sources: The NURBS Book, chapters 4 and 5; RowSpline.h has
+/// those of the refinements. Surfaces that come back from a refinement have weights if the given one
+/// had.
 #pragma once
 
 #include "Bezier.h"
@@ -66,33 +70,44 @@ struct SurfaceDerivatives
 SurfaceDerivatives ProjectDerivatives(const Vec4 (&h)[3][3], int order);
 
 /// Cartesian point at (u, v); the obvious reference, see SurfaceEvaluator for the fast way.
+/// Parameters outside the domain extrapolate the first or last span.
 Vec3 Evaluate(const SurfaceView& surface, double u, double v);
 
-/// Point, first and (order 2) second derivatives of the rational surface at (u, v).
+/// Point, first and (order 2) second derivatives of the rational surface at (u, v); at a knot those
+/// after it (at the domain's end: before it). Throws Error unless order is 1 or 2.
 SurfaceDerivatives EvaluateDerivatives(const SurfaceView& surface, double u, double v, int order);
 
 /// The unit normal Su x Sv / |Su x Sv|. Where the cross product vanishes (pole of a sphere, apex of
 /// a cone, collapsed edge) the limit along the way into the domain: by the second derivative, then
-/// by approaching the pole. Zero only if the surface is a line or point there.
+/// by approaching the pole. Zero only if the surface is a line or point there. "Vanishes" is relative
+/// to the control net around (u, v), so units, place and parametrisation do not matter; the change
+/// from one rule to the other is an angle of about 1e-7.
 Vec3 Normal(const SurfaceView& surface, double u, double v);
 
-/// The surface with the knots `add` (sorted, inside the domain) inserted in direction `dir`.
+/// The surface with the knots `add` (sorted, inside the domain) inserted in direction `dir`. Throws
+/// Error as RefineKnots of Curve.h does.
 Surface RefineKnots(const SurfaceView& surface, int dir, const std::vector<double>& add);
 
-/// Degree raised by `times` in direction `dir`, exactly.
+/// Degree raised by `times` in direction `dir`, exactly; that direction comes back clamped. Throws
+/// Error over MaxDegree.
 Surface ElevateDegree(const SurfaceView& surface, int dir, int times);
 
-/// Degree lowered in direction `dir` while the control points move by at most `tolerance`
-/// (lossless reduction for a tiny one). Returns the surface unchanged if it cannot be lowered.
+/// Degree lowered in direction `dir` as far as a bound on the movement of the surface, in model
+/// units, stays at or under `tolerance` (lossless reduction for a tiny one); weights stay positive.
+/// Returns the surface unchanged if it cannot be lowered, or is linear.
 Surface ReduceDegree(const SurfaceView& surface, int dir, double tolerance);
 
-/// The surface cut at parameter t of direction `dir` into two clamped surfaces.
+/// The surface cut at parameter t of direction `dir` into two surfaces, clamped in that direction.
+/// Throws Error if t is not inside the domain.
 std::pair<Surface, Surface> Split(const SurfaceView& surface, int dir, double t);
 
-/// The surface over the box [u.Min, u.Max] x [v.Min, v.Max] of its domain, clamped.
+/// The surface over the box [u.Min, u.Max] x [v.Min, v.Max] of its domain, clamped. Throws Error if
+/// the box is empty or leaves the domain.
 Surface Restrict(const SurfaceView& surface, Interval u, Interval v);
 
-/// All Bezier patches of the surface, one a pair of non-empty knot spans, u fastest.
+/// All Bezier patches of the surface, one a pair of non-empty knot spans, u fastest. Exact; without
+/// weights w is 1 everywhere. Neighbours share the same bits along their side, unless the surface is
+/// broken there.
 std::vector<BezierPatch> ToBezier(const SurfaceView& surface);
 
 /// True if the first and last rows of the surface (its iso-curves, not only the control points) in

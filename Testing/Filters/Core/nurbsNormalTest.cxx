@@ -145,7 +145,7 @@ TEST(Normal, WhereTheCrossProductVanishesToSecondOrder)
   const Vec3 expected(0, 0, inside[2] > 0 ? 1 : -1);
   for (int i = 0; i <= 8; ++i)
   {
-    EXPECT_LT((BothNormals(bowl.View(), i / 8.0, 0.0) - expected).norm(), 1e-3);
+    EXPECT_LT((BothNormals(bowl.View(), i / 8.0, 0.0) - expected).norm(), 1e-5);
   }
 }
 

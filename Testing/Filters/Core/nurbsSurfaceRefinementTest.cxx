@@ -207,6 +207,30 @@ TEST(SurfaceRefinement, BezierPatchesCoverTheSurface)
   }
 }
 
+TEST(SurfaceRefinement, BezierPatchesShareTheirSidesBitForBit)
+{
+  reference::Random random(58);
+  for (int degree = 1; degree <= 9; ++degree)
+  {
+    const Surface surface = random.Surface(degree, 10 - degree, degree % 2 == 0);
+    const std::vector<BezierPatch> patches = ToBezier(surface.View());
+    const std::size_t spansU = DistinctKnots(surface.Knots[0], degree).size() - 1;
+    const int width = degree + 1;
+    for (std::size_t k = 0; k < patches.size(); ++k)
+    {
+      for (int j = 0; j <= patches[k].Degree[1] && (k + 1) % spansU != 0; ++j)
+      {
+        EXPECT_EQ(patches[k].Points[j * width + degree], patches[k + 1].Points[j * width]);
+      }
+      for (int i = 0; i < width && k + spansU < patches.size(); ++i)
+      {
+        EXPECT_EQ(
+          patches[k].Points[patches[k].Degree[1] * width + i], patches[k + spansU].Points[i]);
+      }
+    }
+  }
+}
+
 TEST(SurfaceRefinement, MisuseIsRefused)
 {
   const Surface sphere = reference::Sphere(1.0);
