@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nurbs
 {
@@ -300,8 +299,12 @@ bool IsDegenerateSide(const SurfaceView& surface, int dir, int end, double toler
   for (double t : ProbeParameters(surface, 1 - dir))
   {
     box.extend(IsoPoint(surface, dir, side, t));
+    if (!(box.diagonal().norm() <= tolerance))
+    {
+      return false;
+    }
   }
-  return box.diagonal().norm() <= tolerance;
+  return true;
 }
 
 } // namespace nurbs

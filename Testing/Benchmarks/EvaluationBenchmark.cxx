@@ -69,25 +69,21 @@ Surface Sheet(int degree, int spans, bool rational)
 NURBS_MULTIVERSION
 double PeakLoop(std::int64_t rounds)
 {
-  constexpr int lanes = 64;
-  alignas(64) double x[lanes];
-  for (int k = 0; k < lanes; ++k)
+  using Octet = double __attribute__((vector_size(64)));
+  Octet x[8];
+  for (int k = 0; k < 8; ++k)
   {
-    x[k] = 1.0 + k;
+    x[k] = Octet{} + 1.0 + k;
   }
   for (std::int64_t i = 0; i < rounds; ++i)
   {
-    for (int k = 0; k < lanes; ++k)
+    for (int k = 0; k < 8; ++k)
     {
       x[k] = x[k] * 0.999 + 0.001;
     }
   }
-  double sum = 0.0;
-  for (int k = 0; k < lanes; ++k)
-  {
-    sum += x[k];
-  }
-  return sum;
+  const Octet sum = x[0] + x[1] + x[2] + x[3] + x[4] + x[5] + x[6] + x[7];
+  return sum[0] + sum[1] + sum[2] + sum[3] + sum[4] + sum[5] + sum[6] + sum[7];
 }
 
 double PeakFlops()
