@@ -9,8 +9,27 @@
 /// file can have it, and what they call is cloned along only where it is inlined. Under a sanitizer
 /// and on other compilers there is the baseline alone.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(NURBS_SANITIZE)
-#define NURBS_MULTIVERSION                                                                         \
+#define NURBS_MULTIVERSION \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define NURBS_HAS_CLONES 1
 #else
 #define NURBS_MULTIVERSION
+#define NURBS_HAS_CLONES 0
 #endif
+
+namespace nurbs
+{
+
+/// True where a NURBS_MULTIVERSION function has 32-byte registers. Code with vector types asks, as
+/// GCC makes slow code of vectors that are too wide for the baseline.
+inline bool HasWideClones()
+{
+#if NURBS_HAS_CLONES
+  static const bool wide = __builtin_cpu_supports("x86-64-v3");
+  return wide;
+#else
+  return false;
+#endif
+}
+
+} // namespace nurbs

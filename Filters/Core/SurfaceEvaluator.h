@@ -59,6 +59,7 @@ private:
   alignas(32) double Row[8 * (MaxDegree + 1)]; ///< Inner sums over v: value, v derivative a column.
   int RowStart = -1;                           ///< First column of Row; -1: none.
 
+  template <typename Quad>
   friend struct EvaluatorKernel;
 };
 

@@ -64,16 +64,14 @@ Surface Sheet(int degree, int spans, bool rational)
   return s;
 }
 
-/// Multiplications and additions a second of this machine's vector units, without fused ones (see
-/// Multiversion.h): independent chains that stay in registers.
-NURBS_MULTIVERSION
-double PeakLoop(std::int64_t rounds)
+/// Multiplications and additions in independent chains that stay in registers.
+template <typename Vector>
+inline __attribute__((always_inline)) double Chains(std::int64_t rounds)
 {
-  using Octet = double __attribute__((vector_size(64)));
-  Octet x[8];
+  Vector x[8];
   for (int k = 0; k < 8; ++k)
   {
-    x[k] = Octet{} + 1.0 + k;
+    x[k] = Vector{} + 1.0 + k;
   }
   for (std::int64_t i = 0; i < rounds; ++i)
   {
@@ -82,17 +80,33 @@ double PeakLoop(std::int64_t rounds)
       x[k] = x[k] * 0.999 + 0.001;
     }
   }
-  const Octet sum = x[0] + x[1] + x[2] + x[3] + x[4] + x[5] + x[6] + x[7];
-  return sum[0] + sum[1] + sum[2] + sum[3] + sum[4] + sum[5] + sum[6] + sum[7];
+  const Vector sum = x[0] + x[1] + x[2] + x[3] + x[4] + x[5] + x[6] + x[7];
+  return sum[0] + sum[1];
 }
 
+NURBS_MULTIVERSION
+double WideChains(std::int64_t rounds)
+{
+  using Octet = double __attribute__((vector_size(64)));
+  return Chains<Octet>(rounds);
+}
+
+double NarrowChains(std::int64_t rounds)
+{
+  using Pair = double __attribute__((vector_size(16)));
+  return Chains<Pair>(rounds);
+}
+
+/// Operations a second of the vector units that SurfaceEvaluator can use on this machine, without
+/// fused ones (see Multiversion.h).
 double PeakFlops()
 {
   constexpr std::int64_t rounds = 1000000;
+  const bool wide = HasWideClones();
   volatile double sink = 0.0;
-  const double seconds = BestTime([&] { sink = PeakLoop(rounds); });
+  const double seconds = BestTime([&] { sink = wide ? WideChains(rounds) : NarrowChains(rounds); });
   (void)sink;
-  return 2.0 * 64.0 * rounds / seconds;
+  return 2.0 * 8.0 * (wide ? 8.0 : 2.0) * rounds / seconds;
 }
 
 /// Bytes a second that one thread writes to memory.
