@@ -7,11 +7,16 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSignedCharArray.h"
@@ -44,13 +49,82 @@ bool vtkNURBSModel::Validate(vtkUnstructuredGrid* grid, std::vector<nurbs::Model
   });
 }
 
-std::string vtkNURBSModel::Validate(vtkUnstructuredGrid* grid)
+namespace
 {
+
+/// Appends the problems of one grid (or the lack of one), each line after `prefix`.
+void AppendProblems(vtkDataObject* data, const std::string& prefix, std::string& text)
+{
+  const auto append = [&](const std::string& line) {
+    text += (text.empty() ? "" : "\n") + prefix + line;
+  };
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (!grid)
+  {
+    append(data ? std::string("error: a ") + data->GetClassName() + " is no vtkUnstructuredGrid"
+                : std::string("error: there is no grid"));
+    return;
+  }
   const vtkNURBSModelView view(grid);
-  std::string text = grid ? "" : "error: there is no grid";
   for (const nurbs::ModelProblem& problem : view.GetProblems())
   {
-    text += (text.empty() ? "" : "\n") + view.Describe(problem);
+    append(view.Describe(problem));
+  }
+}
+
+std::string BlockName(unsigned int index, vtkInformation* about)
+{
+  std::string name = "block " + std::to_string(index);
+  if (about && about->Has(vtkCompositeDataSet::NAME()))
+  {
+    name += std::string(" (") + about->Get(vtkCompositeDataSet::NAME()) + ")";
+  }
+  return name + ": ";
+}
+
+void AppendProblems(vtkPartitionedDataSetCollection* assembly, std::string& text)
+{
+  for (unsigned int i = 0; i < assembly->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    vtkInformation* about = assembly->HasMetaData(i) ? assembly->GetMetaData(i) : nullptr;
+    for (unsigned int part = 0; part < assembly->GetNumberOfPartitions(i); ++part)
+    {
+      if (vtkDataObject* leaf = assembly->GetPartitionAsDataObject(i, part))
+      {
+        AppendProblems(leaf, BlockName(i, about), text);
+      }
+    }
+  }
+}
+
+void AppendProblems(vtkCompositeDataSet* composite, std::string& text)
+{
+  vtkSmartPointer<vtkCompositeDataIterator> block;
+  block.TakeReference(composite->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    vtkInformation* about = block->HasCurrentMetaData() ? block->GetCurrentMetaData() : nullptr;
+    AppendProblems(
+      block->GetCurrentDataObject(), BlockName(block->GetCurrentFlatIndex(), about), text);
+  }
+}
+
+} // namespace
+
+std::string vtkNURBSModel::Validate(vtkDataObject* data)
+{
+  std::string text;
+  if (auto* assembly = vtkPartitionedDataSetCollection::SafeDownCast(data))
+  {
+    AppendProblems(assembly, text);
+  }
+  else if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    AppendProblems(composite, text);
+  }
+  else
+  {
+    AppendProblems(data, "", text);
   }
   return text;
 }

@@ -49,6 +49,7 @@
 #include <string> // For std::string
 #include <vector> // For std::vector
 
+class vtkDataObject;
 class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkIdTypeArray;
@@ -69,10 +70,12 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Everything that is wrong with a grid as a model, one problem a line; empty if it is fine.
-   * A line reads "error: cell 3 (FaceId 17): ..." or "warning: ...".
+   * Everything that is wrong with a model, one problem a line; empty if it is fine. A line reads
+   * "error: cell 3 (FaceId 17): ..." or "warning: ...". `data` is a vtkUnstructuredGrid or a
+   * composite of them; there, a line starts with the block: "block 2 (wheel): error: ...", 2 being
+   * the index in a vtkPartitionedDataSetCollection (else the flat index).
    */
-  static std::string Validate(vtkUnstructuredGrid* grid);
+  static std::string Validate(vtkDataObject* data);
 
   /**
    * True if no error was found (warnings may have been). `problems` receives all errors and

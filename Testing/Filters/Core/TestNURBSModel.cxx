@@ -12,12 +12,15 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkExtractSelection.h"
-#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkStringArray.h"
@@ -314,6 +317,36 @@ TEST(ModelArrays, ProblemsNameCellAndFace)
   EXPECT_EQ(view->GetFaceError(7), "control point 3 is not finite");
   EXPECT_EQ(view->GetFaceError(8), "");
   EXPECT_EQ(vtkNURBSModel::GetFaceId(grid, 7), 107);
+}
+
+TEST(ModelArrays, CompositesNameTheirBlocks)
+{
+  const Grid good = Make(vtkNURBSShapeSource::SPHERE), bad = Make(vtkNURBSShapeSource::SPHERE);
+  bad->GetPoints()->SetPoint(0, std::nan(""), 0, 0);
+  vtkNew<vtkPartitionedDataSetCollection> assembly;
+  assembly->SetPartition(0, 0, good);
+  EXPECT_EQ(vtkNURBSModel::Validate(assembly), "");
+  assembly->SetPartition(1, 0, bad);
+  vtkNew<vtkPolyData> foreign;
+  assembly->SetPartition(2, 0, foreign);
+  assembly->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "wheel");
+  EXPECT_EQ(vtkNURBSModel::Validate(assembly),
+    "block 1 (wheel): error: cell 0 (FaceId 0): control point 0 is not finite\n"
+    "block 2: error: a vtkPolyData is no vtkUnstructuredGrid");
+}
+
+TEST(ModelInPipelines, AssembliesPassThroughTheFilters)
+{
+  vtkNew<vtkPartitionedDataSetCollection> assembly;
+  assembly->SetPartition(0, 0, Make(vtkNURBSShapeSource::SPHERE));
+  assembly->SetPartition(1, 0, Make(vtkNURBSShapeSource::TEAPOT));
+  vtkNew<vtkNURBSControlNet> net;
+  net->SetInputDataObject(assembly);
+  net->Update();
+  auto* nets = vtkPartitionedDataSetCollection::SafeDownCast(net->GetOutputDataObject(0));
+  ASSERT_NE(nets, nullptr);
+  EXPECT_EQ(
+    vtkPolyData::SafeDownCast(nets->GetPartitionAsDataObject(1, 0))->GetNumberOfVerts(), 32);
 }
 
 TEST(ModelArrays, EmptyAndForeignGrids)
