@@ -133,8 +133,12 @@ void SetCurveOptions(vtkNURBSTessellator* tessellator, const Arguments& a)
   }
   if (a.Measure != "default")
   {
-    a.Measure == "point" ? tessellator->SetCurveErrorToPoint() : tessellator->SetCurveErrorToLine();
+    a.Measure == "point" ? tessellator->SetCurveMeasureToPoint()
+                         : tessellator->SetCurveMeasureToLine();
   }
+  // The paper's methods are asked for by name; our own is the default.
+  tessellator->SetCurveBalancing(
+    a.Subdivision == "default" && a.Measure == "default" && !a.NoSimplify);
   tessellator->SetCurveSimplification(!a.NoSimplify);
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSFaceExtent.h"
+
+#include "vtkCamera.h"
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+constexpr int Samples = 5;
+
+// The box of a face's loops in its domain, or the domain.
+nurbs::Box2 ParameterBox(const nurbs::Model& model, const nurbs::Face& face)
+{
+  nurbs::Box2 box;
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const nurbs::TrimLoop& loop = model.Loops[l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      const nurbs::CurveView<2>& curve = model.TrimCurves[c].Geometry;
+      for (int i = 0; i < curve.Count; ++i)
+      {
+        box.extend(curve.Point(i));
+      }
+    }
+  }
+  const nurbs::Interval u = face.Geometry.Domain(0);
+  const nurbs::Interval v = face.Geometry.Domain(1);
+  const nurbs::Box2 domain(nurbs::Vec2(u.Min, v.Min), nurbs::Vec2(u.Max, v.Max));
+  return box.isEmpty() ? domain : box.intersection(domain);
+}
+
+nurbs::Box3 FaceBox(const nurbs::Model& model, const nurbs::Face& face)
+{
+  const nurbs::Box2 uv = ParameterBox(model, face);
+  nurbs::Box3 box;
+  if (uv.isEmpty())
+  {
+    return box;
+  }
+  int count[2];
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const bool linear = face.Geometry.Degree[dir] == 1 && face.Geometry.Count[dir] == 2;
+    count[dir] = linear ? 2 : Samples;
+  }
+  for (int j = 0; j < count[1]; ++j)
+  {
+    const double v = uv.min()[1] + uv.sizes()[1] * j / (count[1] - 1);
+    for (int i = 0; i < count[0]; ++i)
+    {
+      const double u = uv.min()[0] + uv.sizes()[0] * i / (count[0] - 1);
+      box.extend(nurbs::Evaluate(face.Geometry, u, v));
+    }
+  }
+  return box;
+}
+
+} // namespace
+
+std::vector<nurbs::Box3> vtkNURBSFaceExtent::FaceBoxes(const nurbs::Model& model,
+  const std::vector<std::string>& faceErrors, const nurbs::ParallelFor& parallel)
+{
+  std::vector<nurbs::Box3> boxes(model.Faces.size());
+  parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f)
+    {
+      if (faceErrors[f].empty())
+      {
+        boxes[f] = FaceBox(model, model.Faces[f]);
+      }
+    }
+  });
+  return boxes;
+}
+
+double vtkNURBSFaceExtent::Diagonal(const std::vector<nurbs::Box3>& boxes)
+{
+  nurbs::Box3 all;
+  for (const nurbs::Box3& box : boxes)
+  {
+    all.extend(box);
+  }
+  return all.isEmpty() ? 0.0 : all.diagonal().norm();
+}
+
+std::vector<double> vtkNURBSFaceExtent::PixelTolerances(const std::vector<nurbs::Box3>& boxes,
+  vtkCamera* camera, const int viewport[2], double pixels, double least)
+{
+  std::vector<double> tolerances(boxes.size(), std::numeric_limits<double>::max());
+  if (camera->GetParallelProjection())
+  {
+    const double size = 2.0 * camera->GetParallelScale() / viewport[1];
+    std::fill(tolerances.begin(), tolerances.end(), std::max(least, pixels * size));
+    return tolerances;
+  }
+  const nurbs::Vec3 eye(camera->GetPosition());
+  const nurbs::Vec3 forward(camera->GetDirectionOfProjection());
+  const int across = camera->GetUseHorizontalViewAngle() ? 0 : 1;
+  const double slope = std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const double perPixel = 2.0 * slope / viewport[across];
+  // A length at depth z looks longest in the view's corner, turned against the line of sight.
+  const double corner = slope * std::hypot(viewport[0], viewport[1]) / viewport[across];
+  const double cosine = 1.0 / std::sqrt(1.0 + corner * corner);
+  const double near = camera->GetClippingRange()[0];
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+  {
+    if (boxes[f].isEmpty())
+    {
+      continue;
+    }
+    double depth = std::numeric_limits<double>::max();
+    for (int c = 0; c < 8; ++c)
+    {
+      const nurbs::Vec3 p = boxes[f].corner(static_cast<nurbs::Box3::CornerType>(c));
+      depth = std::min(depth, (p - eye).dot(forward));
+    }
+    tolerances[f] = std::max(least, pixels * perPixel * cosine * std::max(near, depth));
+  }
+  return tolerances;
+}
