@@ -127,7 +127,7 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
         continue; // A corner at a pole: no triangle there.
       }
       facet.SetFourthCorner(this->At[6 - f[0] - f[1] - f[2]].X, this->MaxWeight);
-      facet.Add(range);
+      facet.Add(range, box);
       height = std::max(height, facet.Height());
       slide = std::max(slide, facet.Sliding());
       error = std::max(
@@ -261,6 +261,7 @@ int CellError::Examine(const BezierPatch* patch, TreeLeaf& leaf)
                                                                  : this->Estimated(leaf, patch);
   leaf.Error = error;
   int axis = this->CostU >= this->CostV ? 0 : 1;
+  leaf.Axis = axis;
   if (error <= this->Goal.Tolerance && !this->ExceedsLimits(axis))
   {
     return -1;

@@ -353,7 +353,7 @@ private:
     return Evaluate(this->Data.Faces[use.Face].Geometry, uv[0], uv[1]);
   }
 
-  // The edge's own 3D curve if it fits its faces; else the lowest face's lifted trim curve (control
+  // The edge's own 3D curve if it fits its faces and several share it; else the lowest face's lifted trim curve (control
   // points that a filter moved, models without edge curves).
   void ChooseCurve()
   {
@@ -371,7 +371,8 @@ private:
         gap = std::max(gap, (this->Lifted(use, t) - x).norm());
       }
     }
-    this->OwnCurve = known && gap <= std::max(4.0 * edge.Tolerance, 1e-5 * size);
+    const bool alone = this->Uses.size() == 1 && gap > 0.02 * this->Tolerance;
+    this->OwnCurve = known && !alone && gap <= std::max(4.0 * edge.Tolerance, 1e-5 * size);
     if (known && !this->OwnCurve)
     {
       gap = 0.0;
@@ -529,6 +530,36 @@ private:
     return std::max(1, std::min(64, int(points) - 1));
   }
 
+  // Segments that a chord needs so that a triangle beside it, as deep as the tree's cells, can stay
+  // within the tolerance; 1: fine.
+  int DepthSegments(const FaceContext& face, const Vec2& a, const Vec2& b) const
+  {
+    const double du = std::abs(b[0] - a[0]);
+    const double dv = std::abs(b[1] - a[1]);
+    const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
+      std::max(a[1], b[1]) };
+    double most = 1.0;
+    const std::vector<TreeLeaf>& leaves = face.Tree->Leaves();
+    face.Tree->Query(box, [&](int k) {
+      const TreeLeaf& leaf = leaves[k];
+      if (leaf.Box.A() < 0.02 * du || leaf.Box.B() < 0.02 * dv)
+      {
+        return;
+      }
+      const Vec3 n = leaf.Range.Frame.col(0);
+      const auto height = [&](double x, double y) {
+        return BoundDeviation(leaf.Range, x, y, n, leaf.Range.Origin).Largest() /
+          leaf.Range.MinWeight;
+      };
+      const double along = height(du, dv);
+      const bool mostlyU = du * leaf.Box.B() > dv * leaf.Box.A();
+      const double depth = 0.7 * (mostlyU ? height(0.0, leaf.Box.B()) : height(leaf.Box.A(), 0.0));
+      const double room = std::max(0.3 * this->Tolerance, 0.9 * this->Tolerance - depth);
+      most = std::max(most, std::sqrt(along / room));
+    });
+    return std::min(64, int(std::ceil(most - 1e-3)));
+  }
+
   // Every face looks at every chord in its own domain; returns true if it had to add parameters.
   bool Vote()
   {
@@ -536,18 +567,20 @@ private:
     for (const EdgeUse& use : this->Uses)
     {
       const FaceContext& face = this->Faces[use.Face];
-      if (!face.Tree || IsStraight(this->Data.TrimCurves[use.Curve].Geometry))
+      if (!face.Tree)
       {
         continue;
       }
+      const bool straight = IsStraight(this->Data.TrimCurves[use.Curve].Geometry);
       const std::vector<double>& ts = this->Out.Parameters;
       Vec2 a = this->UV(use, ts[0]);
       for (std::size_t k = 0; k + 1 < ts.size(); ++k)
       {
         const Vec2 b = this->UV(use, ts[k + 1]);
         double error = 0.0;
-        const int n = this->ChordSegments(use, a, b, error);
+        int n = straight ? 1 : this->ChordSegments(use, a, b, error);
         this->Out.Error = std::max(this->Out.Error, n == 1 ? error : 0.0);
+        n = std::max(n, this->DepthSegments(face, a, b));
         for (int i = 1; i < n; ++i)
         {
           add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);

@@ -19,11 +19,12 @@ constexpr double CutMargin = 0.08; // Leaves this near to a trim line (in their 
 class FaceBuilder
 {
 public:
-  FaceBuilder(const FaceJob& job, std::vector<SplitRequest>& requests)
+  FaceBuilder(const FaceJob& job, std::vector<SplitRequest>& requests, std::vector<int>& weakLeaves)
     : Job(job)
     , Data(*job.Data)
     , TheFace(job.Data->Faces[job.Face])
     , Requests(requests)
+    , WeakLeaves(weakLeaves)
     , Evaluator(job.Bound->Evaluator())
   {}
 
@@ -671,7 +672,7 @@ private:
     }
     if (leaf != NoLeaf)
     {
-      facet.Add(leaves[-1 - leaf].Range);
+      facet.Add(leaves[-1 - leaf].Range, leaves[-1 - leaf].Box);
       return facet;
     }
     ParameterBox box{ 1e300, -1e300, 1e300, -1e300 };
@@ -684,16 +685,19 @@ private:
     const double a = 1e-7 * box.A();
     const double b = 1e-7 * box.B();
     this->Job.Tree->Query({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b },
-      [&](int k) { facet.Add(leaves[k].Range); });
+      [&](int k) { facet.Add(leaves[k].Range, leaves[k].Box); });
     return facet;
   }
 
   double FacetError(const int* t, const FacetBound& facet) const
   {
-    return facet.HasPlane()
-      ? std::min(facet.Deviation(),
-          SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(t, facet.Normal())))
-      : facet.Deviation();
+    if (!facet.HasPlane())
+    {
+      return facet.Deviation();
+    }
+    const double error = std::min(facet.Deviation(),
+      SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(t, facet.Normal())));
+    return error <= this->Limit() ? error : std::min(error, facet.SegmentDeviation());
   }
 
   // Bound of the surface's distance from a triangle; `leaf`: see Leaf.
@@ -720,7 +724,12 @@ private:
     {
       for (std::size_t k = 0; k < this->Leaf.size(); ++k)
       {
-        worst = std::max(worst, this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]));
+        const double error = this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]);
+        worst = std::max(worst, error);
+        if (error > this->Limit() && this->Leaf[k] != NoLeaf)
+        {
+          this->WeakLeaves.push_back(this->Leaf[k] >= 0 ? this->Leaf[k] : -1 - this->Leaf[k]);
+        }
       }
     }
     double edges = 0.0;
@@ -733,6 +742,7 @@ private:
       }
     }
     this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);
+    this->Mesh.ModelGap = this->Gap;
   }
 
   // Drops triangles at poles and turns reversed faces.
@@ -772,6 +782,7 @@ private:
   const Model& Data;
   const Face& TheFace;
   std::vector<SplitRequest>& Requests;
+  std::vector<int>& WeakLeaves;
   SurfaceEvaluator Evaluator;
   FaceMesh Mesh;
   std::vector<std::vector<BoundaryVertex>> Loops;
@@ -787,9 +798,10 @@ private:
 };
 } // namespace
 
-FaceMesh TessellateFace(const FaceJob& job, std::vector<SplitRequest>& requests)
+FaceMesh TessellateFace(
+  const FaceJob& job, std::vector<SplitRequest>& requests, std::vector<int>& weakLeaves)
 {
-  return FaceBuilder(job, requests).Run();
+  return FaceBuilder(job, requests, weakLeaves).Run();
 }
 
 } // namespace nurbs

@@ -35,7 +35,10 @@ struct FaceJob
   ParallelFor Parallel = SerialFor;
 };
 
-/// Triangulates a face. `requests` receives what its edges need; if any, the mesh is not final.
-FaceMesh TessellateFace(const FaceJob& job, std::vector<SplitRequest>& requests);
+/// Triangulates a face.
+/// @param requests receives what its edges need; if any, the mesh is not final.
+/// @param weakLeaves receives the tree's leaves whose triangles could not be certified.
+FaceMesh TessellateFace(
+  const FaceJob& job, std::vector<SplitRequest>& requests, std::vector<int>& weakLeaves);
 
 } // namespace nurbs

@@ -69,29 +69,62 @@ void FacetBound::SetFourthCorner(const Vec3& x, double weight)
   this->Twist = this->Plane ? 0.25 * weight * std::abs(this->N.dot(x - this->X[0])) : 0.0;
 }
 
-void FacetBound::Add(const CurvatureRange& range)
+namespace
 {
-  this->Full = std::max(this->Full, DeviationBound(range, this->A, this->B));
+constexpr double Narrow = 1.0 / 64.0; // Boxes narrower than this share of a triangle add up.
+
+double Effective(double extent, double width)
+{
+  return width < Narrow * extent ? 2.0 * std::sqrt(extent * width) : extent;
+}
+} // namespace
+
+void FacetBound::Add(const CurvatureRange& range, const ParameterBox& box)
+{
+  const double w = box.A();
+  const double h = box.B();
+  const bool sum = w < Narrow * this->A || h < Narrow * this->B;
+  const auto merge = [sum](double& target, double value) {
+    target = sum ? target + value : std::max(target, value);
+  };
+  const double a = Effective(this->A, w);
+  const double b = Effective(this->B, h);
+  merge(this->Full, DeviationBound(range, a, b));
   if (!this->Plane)
   {
     this->Weight = 1.0;
     return;
   }
   this->Weight = std::min(this->Weight, range.MinWeight);
-  this->HeightOver = std::max(this->HeightOver,
-    BoundDeviation(range, this->A, this->B, this->N, this->X[0], this->Mixed).Largest());
+  merge(this->HeightOver, BoundDeviation(range, a, b, this->N, this->X[0], this->Mixed).Largest());
   for (int i = 0; i < 3; ++i)
   {
-    this->Along[i] = std::max(this->Along[i],
-      BoundDeviation(range, this->Du[i], this->Dv[i], this->N, this->X[i]).Largest());
+    merge(this->Along[i],
+      BoundDeviation(
+        range, Effective(this->Du[i], w), Effective(this->Dv[i], h), this->N, this->X[i])
+        .Largest());
+    merge(this->Across[i], BoundDeviation(range, a, b, this->Out[i], this->X[i]).Largest());
     for (int j = 0; j < 3; ++j)
     {
-      const double d =
-        BoundDeviation(range, this->Du[j], this->Dv[j], this->Out[i], this->X[i]).Above;
-      double& target = i == j ? this->Bow[i] : this->Pull[i];
-      target = std::max(target, d);
+      const double d = BoundDeviation(
+        range, Effective(this->Du[j], w), Effective(this->Dv[j], h), this->Out[i], this->X[i])
+                         .Above;
+      merge(i == j ? this->Bow[i] : this->Pull[i], d);
     }
   }
+}
+
+double FacetBound::SegmentDeviation() const
+{
+  if (!this->Plane)
+  {
+    return this->Full;
+  }
+  const int longest = int(std::min_element(this->Altitude, this->Altitude + 3) - this->Altitude);
+  // Across the edge the third corner is an altitude away from zero: 2 altitudes cover its share in
+  // the rational case, where the weights differ by less than a factor of two in a cell.
+  const double across = this->Across[longest] / this->Weight + 2.0 * this->Altitude[longest];
+  return std::hypot(this->Height(), across);
 }
 
 double FacetBound::Sliding() const

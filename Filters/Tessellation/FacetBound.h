@@ -39,13 +39,20 @@ public:
   const Vec3& Normal() const { return this->N; }
 
   /// Adds a box's bounds; the triangle must lie inside the union of all boxes added.
-  void Add(const CurvatureRange& range);
+  ///
+  /// A box of width w much narrower than the triangle's extent b (a sliver of a knot span, say) holds
+  /// at most 2 w / |dv| of the weight of a mean Hessian along a segment, so its b^2 / 8 becomes
+  /// b w / 2, added to what the other boxes give.
+  void Add(const CurvatureRange& range, const ParameterBox& box);
 
   double Height() const { return (this->HeightOver + this->Twist) / this->Weight; }
   /// Bound of |S - L|: sliding in any direction.
   double Deviation() const { return this->Full; }
   /// How far surface points' feet get out of the triangle.
   double Sliding() const;
+  /// Bound of the distance from the longest edge's line for a triangle that is nearly that line:
+  /// sliding along it is free, any other counts, and so does the triangle's own width.
+  double SegmentDeviation() const;
   /// Height over the plane along edge i (from corner i to i + 1): which edge to split.
   double EdgeHeight(int i) const { return this->Along[i] / this->Weight; }
 
@@ -64,6 +71,7 @@ private:
   double Bow[3] = { 0, 0, 0 };
   double Pull[3] = { 0, 0, 0 };
   double Along[3] = { 0, 0, 0 };
+  double Across[3] = { 0, 0, 0 }; ///< In-plane deviation across edge i, whole triangle.
   double Weight = 1e300;
 };
 

@@ -363,6 +363,25 @@ struct SurfaceTree::Work
       std::find(crease.begin() + first, crease.begin() + last, 1) != crease.begin() + last;
   }
 
+  // A range as a leaf, good enough or not.
+  TreeLeaf Measure(const Range& r)
+  {
+    TreeLeaf leaf;
+    leaf.U0 = r.U0;
+    leaf.U1 = r.U1;
+    leaf.V0 = r.V0;
+    leaf.V1 = r.V1;
+    leaf.Box = this->Tree.BoxOf(r);
+    BezierPatch patch;
+    const bool single = this->Bound.InOneSpan(leaf.Box);
+    if (single)
+    {
+      this->Bound.Extract(leaf.Box, patch);
+    }
+    this->Cell.Examine(single ? &patch : nullptr, leaf);
+    return leaf;
+  }
+
   // Children of a range; empty: the range is a leaf, whose data `leaf` receives.
   std::vector<Range> Divide(const Range& r, const BezierPatch* patch, TreeLeaf& leaf)
   {
@@ -547,6 +566,55 @@ void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, c
     this->Cells.insert(this->Cells.end(), trees[k].Leaves.begin(), trees[k].Leaves.end());
     this->Capped = this->Capped || trees[k].Capped;
     trees[k] = Subtree();
+  }
+}
+
+void SurfaceTree::Refine(const SurfaceBound& bound, const TreeGoal& goal, std::vector<int> leaves)
+{
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  std::vector<int> nodeOf(this->Cells.size(), -1);
+  for (std::size_t n = 0; n < this->Nodes.size(); ++n)
+  {
+    if (this->Nodes[n].First < 0)
+    {
+      nodeOf[this->Nodes[n].Count] = int(n);
+    }
+  }
+  Subtree unused;
+  Work work(*this, bound, goal, goal.MaximumLeaves, unused);
+  for (int k : leaves)
+  {
+    const TreeLeaf old = this->Cells[k];
+    const Range r{ old.U0, old.U1, old.V0, old.V1 };
+    const LineCode u = this->SplitCode(0, r.U0, r.U1, false);
+    const LineCode v = this->SplitCode(1, r.V0, r.V1, false);
+    const bool alongU = u != r.U0 && (old.Axis == 0 || v == r.V0);
+    if (!alongU && v == r.V0)
+    {
+      continue;
+    }
+    const Range halves[2] = { { r.U0, alongU ? u : r.U1, r.V0, alongU ? r.V1 : v },
+      { alongU ? u : r.U0, r.U1, alongU ? r.V0 : v, r.V1 } };
+    const int first = int(this->Nodes.size());
+    this->Nodes[nodeOf[k]].First = first;
+    this->Nodes[nodeOf[k]].Count = 2;
+    for (int half = 0; half < 2; ++half)
+    {
+      Node node;
+      node.Box = this->BoxOf(halves[half]);
+      node.Count = half == 0 ? k : int(this->Cells.size());
+      this->Nodes.push_back(node);
+      const TreeLeaf leaf = work.Measure(halves[half]);
+      if (half == 0)
+      {
+        this->Cells[k] = leaf;
+      }
+      else
+      {
+        this->Cells.push_back(leaf);
+      }
+    }
   }
 }
 

@@ -28,6 +28,7 @@ struct TreeLeaf
   double Error = 0.0;   ///< Bound (or estimate) of the two triangles' distance from the surface.
   double Height = 0.0;  ///< Bound (or estimate) of the surface's height over the two triangles.
   double Sliding = 0.0; ///< Bound of its sliding along them.
+  int Axis = 0;         ///< Direction (0: u, 1: v) that deviates most.
   int Diagonal = 0;     ///< 0: from (U0, V0) to (U1, V1); 1: from (U1, V0) to (U0, V1).
 };
 
@@ -52,6 +53,9 @@ public:
   /// Subdivides `domain` (inside the surface's domain). Large surfaces are built in parallel.
   void Build(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
     const ParallelFor& parallel);
+
+  /// Splits leaves once more; the other leaves keep their index.
+  void Refine(const SurfaceBound& bound, const TreeGoal& goal, std::vector<int> leaves);
 
   const std::vector<TreeLeaf>& Leaves() const { return this->Cells; }
   /// True if MaximumLeaves stopped the subdivision.

@@ -35,7 +35,6 @@ public:
     this->Bounds.resize(faces);
     this->Trees.resize(faces);
     this->Contexts.resize(faces);
-    this->Tighten.assign(faces, 1.0);
     this->FindUses();
     this->OrderFaces();
 
@@ -196,6 +195,18 @@ private:
     return used;
   }
 
+  TreeGoal GoalOf(std::int64_t f) const
+  {
+    TreeGoal goal;
+    goal.Tolerance = 0.98 * this->ToleranceOf(f);
+    goal.Method = this->Options.Method;
+    goal.Error = this->Options.Error;
+    goal.MaximumEdgeLength = this->Options.MaximumEdgeLength;
+    goal.MaximumAngle = this->Options.MaximumAngle;
+    goal.MaximumLeaves = std::max<std::int64_t>(1, this->Options.MaximumFaceTriangles / 2);
+    return goal;
+  }
+
   void PrepareFace(std::int64_t f, const ParallelFor& parallel)
   {
     const Face& face = this->Data.Faces[f];
@@ -212,15 +223,8 @@ private:
       context.Tree = nullptr;
       return;
     }
-    TreeGoal goal;
-    goal.Tolerance = 0.98 * tolerance * this->Tighten[f];
-    goal.Method = this->Options.Method;
-    goal.Error = this->Options.Error;
-    goal.MaximumEdgeLength = this->Options.MaximumEdgeLength;
-    goal.MaximumAngle = this->Options.MaximumAngle;
-    goal.MaximumLeaves = std::max<std::int64_t>(1, this->Options.MaximumFaceTriangles / 2);
     this->Trees[f].reset(new SurfaceTree);
-    this->Trees[f]->Build(*context.Bound, this->UsedDomain(face), goal, parallel);
+    this->Trees[f]->Build(*context.Bound, this->UsedDomain(face), this->GoalOf(f), parallel);
     context.Tree = this->Trees[f].get();
   }
 
@@ -253,6 +257,7 @@ private:
   {
     const bool last = pass + 1 == MaximumPasses;
     std::vector<std::vector<SplitRequest>> requests(this->Data.Faces.size());
+    std::vector<std::vector<int>> weak(this->Data.Faces.size());
     this->ForFaces(todo, 0.5 + 0.4 * pass / MaximumPasses, 0.9,
       [&](std::int64_t f, const ParallelFor& parallel) {
         FaceJob job;
@@ -265,7 +270,7 @@ private:
         job.Tolerance = this->ToleranceOf(f);
         job.LastPass = last;
         job.Parallel = parallel;
-        this->Result.Meshes[f] = TessellateFace(job, requests[f]);
+        this->Result.Meshes[f] = TessellateFace(job, requests[f], weak[f]);
       });
     if (this->Aborted)
     {
@@ -286,7 +291,7 @@ private:
       }
       if (requests[f].empty())
       {
-        again[f] = again[f] || this->Judge(f, pass);
+        again[f] = this->Judge(f, last, weak[f]) || again[f];
       }
     }
     edges.clear();
@@ -309,7 +314,7 @@ private:
   }
 
   // Looks at a finished face: true if it must be done again with a finer tree.
-  bool Judge(std::int64_t f, int pass)
+  bool Judge(std::int64_t f, bool last, std::vector<int>& weak)
   {
     FaceMesh& mesh = this->Result.Meshes[f];
     const double tolerance = this->ToleranceOf(f);
@@ -323,15 +328,15 @@ private:
     {
       return false;
     }
-    if (this->Contexts[f].Tree && pass + 2 < MaximumPasses)
+    if (!weak.empty() && !last)
     {
-      this->Tighten[f] *= std::max(0.5, 0.95 * tolerance / mesh.CertifiedError);
-      this->PrepareFace(f, SerialFor);
+      this->Trees[f]->Refine(*this->Bounds[f], this->GoalOf(f), std::move(weak));
       return true;
     }
     mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
-    mesh.Message += "the error cannot be certified below " + std::to_string(mesh.CertifiedError) +
-      ": the model's own gaps are as large";
+    mesh.Message += "its error is certified to " + std::to_string(mesh.CertifiedError / tolerance) +
+      " tolerances only; edges are up to " + std::to_string(mesh.ModelGap / tolerance) +
+      " tolerances away from it in the model itself";
     return false;
   }
 
@@ -383,7 +388,6 @@ private:
   std::vector<std::unique_ptr<SurfaceBound>> Bounds;
   std::vector<std::unique_ptr<SurfaceTree>> Trees;
   std::vector<FaceContext> Contexts;
-  std::vector<double> Tighten;
   std::vector<EdgePolyline> Polylines;
   std::vector<std::vector<double>> Extra;
   TessellationResult Result;

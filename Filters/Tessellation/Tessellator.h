@@ -61,6 +61,7 @@ struct FaceMesh
   std::vector<Vec2> UV;        ///< In the face's own parameter domain.
   std::vector<int> Triangles;  ///< Three point indices each, counter-clockwise from outside.
   double CertifiedError = 0.0; ///< Model units; an estimate in ErrorMode::Estimated.
+  double ModelGap = 0.0;       ///< Largest distance of the shared edges' points from this surface.
   FaceStatus Status = FaceStatus::Ok;
   std::string Message; ///< Why the status is not Ok.
 };
