@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace nurbs
@@ -37,8 +38,7 @@ public:
     }
     TrimRegion region(this->Loops);
     this->AddBoundary();
-    const bool done = this->Job.Tree ? this->Curved(region) : this->Planar(region);
-    if (done && this->Requests.empty())
+    if (this->Job.Tree ? this->Curved(region) : this->Planar(region))
     {
       this->Certify();
     }
@@ -510,8 +510,12 @@ private:
         for (int& id : t)
         {
           id = vertexOf[id];
-          this->Mesh.Triangles.push_back(id);
         }
+      }
+      this->FlipEars(triangles);
+      for (const auto& t : triangles)
+      {
+        this->Mesh.Triangles.insert(this->Mesh.Triangles.end(), t.begin(), t.end());
         this->Leaf.push_back(NoLeaf);
       }
       if (!this->Job.Tree || pass == 16)
@@ -525,6 +529,64 @@ private:
         return;
       }
       this->EvaluateFrom(before, false);
+    }
+  }
+
+  bool IsSegment(int a, int b) const { return a < this->BoundaryCount && this->Next[a] == b; }
+
+  // Twice the area in (u, v), in units of cells.
+  double ScaledArea2(int a, int b, int c) const
+  {
+    const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
+    const Vec2 e = (this->Mesh.UV[c] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
+    return d[0] * e[1] - d[1] * e[0];
+  }
+
+  // Thin triangles between two boundary segments stand across the surface, however short they are:
+  // their third edge is exchanged for the other diagonal.
+  void FlipEars(std::vector<std::array<int, 3>>& triangles) const
+  {
+    std::map<std::pair<int, int>, std::size_t> ears; // By the directed third edge.
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const int a = triangles[k][i];
+        const int b = triangles[k][(i + 1) % 3];
+        const int c = triangles[k][(i + 2) % 3];
+        if (this->IsSegment(a, b) && this->IsSegment(b, c) && !this->IsSegment(c, a))
+        {
+          const double base =
+            (this->Mesh.UV[c] - this->Mesh.UV[a]).cwiseProduct(this->Scale).squaredNorm();
+          if (this->ScaledArea2(a, b, c) < 0.1 * base)
+          {
+            ears[{ c, a }] = k;
+          }
+        }
+      }
+    }
+    for (std::size_t k = 0; k < triangles.size() && !ears.empty(); ++k)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const int a = triangles[k][i];
+        const int c = triangles[k][(i + 1) % 3];
+        const int d = triangles[k][(i + 2) % 3];
+        const auto ear = ears.find({ c, a });
+        if (ear == ears.end() || ear->second == k)
+        {
+          continue;
+        }
+        const auto& t = triangles[ear->second];
+        const int b = t[0] != a && t[0] != c ? t[0] : (t[1] != a && t[1] != c ? t[1] : t[2]);
+        if (this->ScaledArea2(a, b, d) > 0.0 && this->ScaledArea2(b, c, d) > 0.0)
+        {
+          triangles[ear->second] = { a, b, d };
+          triangles[k] = { b, c, d };
+          ears.erase(ear);
+          break;
+        }
+      }
     }
   }
 
@@ -697,7 +759,26 @@ private:
     }
     const double error = std::min(facet.Deviation(),
       SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(t, facet.Normal())));
-    return error <= this->Limit() ? error : std::min(error, facet.SegmentDeviation());
+    return error <= this->Limit()
+      ? error
+      : std::min({ error, facet.SegmentDeviation(), this->EdgeSliverError(t, facet) });
+  }
+
+  // A sliver whose longest edge, or whose other two edges, are boundary segments: its points are an
+  // altitude away from segments that are certified already.
+  double EdgeSliverError(const int* t, const FacetBound& facet) const
+  {
+    const int longest = facet.LongestEdge();
+    double error[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      const int a = t[i];
+      const bool boundary =
+        a < this->BoundaryCount && this->Next[a] == t[(i + 1) % 3] && this->Segments[a]->Edge >= 0;
+      error[i] = boundary ? (*this->Job.Edges)[this->Segments[a]->Edge].Error : 1e300;
+    }
+    const double legs = std::max(error[(longest + 1) % 3], error[(longest + 2) % 3]);
+    return std::min(error[longest], legs) + 2.0 * facet.AltitudeOver(longest);
   }
 
   // Bound of the surface's distance from a triangle; `leaf`: see Leaf.

@@ -114,6 +114,11 @@ void FacetBound::Add(const CurvatureRange& range, const ParameterBox& box)
   }
 }
 
+int FacetBound::LongestEdge() const
+{
+  return int(std::min_element(this->Altitude, this->Altitude + 3) - this->Altitude);
+}
+
 double FacetBound::SegmentDeviation() const
 {
   if (!this->Plane)

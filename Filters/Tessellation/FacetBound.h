@@ -37,6 +37,8 @@ public:
   /// False if the triangle has no plane (an edge or altitude vanishes).
   bool HasPlane() const { return this->Plane; }
   const Vec3& Normal() const { return this->N; }
+  int LongestEdge() const;
+  double AltitudeOver(int i) const { return this->Altitude[i]; }
 
   /// Adds a box's bounds; the triangle must lie inside the union of all boxes added.
   ///

@@ -15,7 +15,7 @@ namespace nurbs
 
 namespace
 {
-constexpr int MaximumPasses = 6;
+constexpr int MaximumPasses = 8;
 
 class ModelTessellator
 {
@@ -289,10 +289,7 @@ private:
           again[use.Face] = 1;
         }
       }
-      if (requests[f].empty())
-      {
-        again[f] = this->Judge(f, last, weak[f]) || again[f];
-      }
+      again[f] = this->Judge(f, last, requests[f].empty(), weak[f]) || again[f];
     }
     edges.clear();
     for (std::size_t e = 0; e < refine.size(); ++e)
@@ -314,7 +311,7 @@ private:
   }
 
   // Looks at a finished face: true if it must be done again with a finer tree.
-  bool Judge(std::int64_t f, bool last, std::vector<int>& weak)
+  bool Judge(std::int64_t f, bool last, bool settled, std::vector<int>& weak)
   {
     FaceMesh& mesh = this->Result.Meshes[f];
     const double tolerance = this->ToleranceOf(f);
@@ -331,6 +328,10 @@ private:
     if (!weak.empty() && !last)
     {
       this->Trees[f]->Refine(*this->Bounds[f], this->GoalOf(f), std::move(weak));
+      return true;
+    }
+    if (!settled)
+    {
       return true;
     }
     mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
