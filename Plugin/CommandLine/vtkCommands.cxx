@@ -208,7 +208,7 @@ int RenderCommand(const Arguments& arguments)
   Session session(arguments);
   const auto model = session.Read(true, 0.6);
   Count(model, session.Figures);
-  const auto camera = FitCamera(PointsOf(model), arguments.View, arguments.Size);
+  const auto camera = FitCamera(SamplesOf(model), arguments.View, arguments.Size);
   Triangles triangles =
     Tessellate(model, arguments, camera, session.Phase(0.6, 0.9), session.Figures);
   session.Phase(0.9, 1.0);

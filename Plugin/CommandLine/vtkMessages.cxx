@@ -3,7 +3,6 @@
 
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
 #include <regex>
 #include <utility>
 
@@ -21,8 +20,8 @@ std::string vtkMessages::Plain(const char* text)
   {
     plain.pop_back();
   }
-  std::replace(plain.begin(), plain.end(), '\n', ' ');
-  return plain;
+  static const std::regex spaces("\\s+");
+  return std::regex_replace(plain, spaces, " ");
 }
 
 //--------------------------------------------------------------------------------------------------

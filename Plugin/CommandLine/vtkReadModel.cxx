@@ -3,6 +3,7 @@
 
 #include "Arguments.h"
 #include "Failure.h"
+#include "SurfaceEvaluator.h"
 #include "vtkMessages.h"
 #include "vtkWriteMesh.h"
 
@@ -14,6 +15,7 @@
 #include "vtkFieldData.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
@@ -101,6 +103,51 @@ vtkSmartPointer<vtkFieldData> JoinedFields(const std::vector<vtkPolyData*>& leav
   return joined;
 }
 
+// The box of the loops' control points within the domain, or the domain.
+Box2 TrimBox(const Model& model, const Face& face)
+{
+  const Interval u = face.Geometry.Domain(0), v = face.Geometry.Domain(1);
+  const Box2 domain(Vec2(u.Min, v.Min), Vec2(u.Max, v.Max));
+  Box2 box;
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const TrimLoop& loop = model.Loops[static_cast<size_t>(l)];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      const CurveView<2>& curve = model.TrimCurves[static_cast<size_t>(c)].Geometry;
+      for (int i = 0; i < curve.Count; ++i)
+      {
+        box.extend(curve.Point(i));
+      }
+    }
+  }
+  const Box2 common = box.intersection(domain);
+  return common.isEmpty() ? domain : common;
+}
+
+void SampleFace(const Model& model, const Face& face, vtkPoints* samples)
+{
+  constexpr int Steps = 6;
+  if (face.Geometry.Size() == 0)
+  {
+    return;
+  }
+  const Box2 box = TrimBox(model, face);
+  std::vector<double> values[2];
+  for (int i = 0; i <= Steps; ++i)
+  {
+    const Vec2 at = box.min() + box.sizes() * (static_cast<double>(i) / Steps);
+    values[0].push_back(at[0]);
+    values[1].push_back(at[1]);
+  }
+  std::vector<double> points(3 * values[0].size() * values[1].size());
+  SurfaceEvaluator(face.Geometry).Grid(values[0], values[1], points.data(), nullptr);
+  for (size_t i = 0; i < points.size(); i += 3)
+  {
+    samples->InsertNextPoint(points.data() + i);
+  }
+}
+
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
@@ -173,16 +220,19 @@ std::vector<vtkUnstructuredGrid*> PartsOf(vtkDataObject* model)
 }
 
 //--------------------------------------------------------------------------------------------------
-vtkSmartPointer<vtkPoints> PointsOf(vtkDataObject* model)
+vtkSmartPointer<vtkPoints> SamplesOf(vtkDataObject* model)
 {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
+  auto samples = vtkSmartPointer<vtkPoints>::New();
+  samples->SetDataTypeToDouble();
   for (vtkUnstructuredGrid* part : PartsOf(model))
   {
-    points->InsertPoints(
-      points->GetNumberOfPoints(), part->GetNumberOfPoints(), 0, part->GetPoints());
+    const auto view = vtkNURBSModel::View(part);
+    for (const Face& face : view->GetModel().Faces)
+    {
+      SampleFace(view->GetModel(), face, samples);
+    }
   }
-  return points;
+  return samples;
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -37,8 +37,9 @@ vtkSmartPointer<vtkDataObject> ReadModel(
 /// The models of an assembly in its order, or the model itself.
 std::vector<vtkUnstructuredGrid*> PartsOf(vtkDataObject* model);
 
-/// The control points of all parts.
-vtkSmartPointer<vtkPoints> PointsOf(vtkDataObject* model);
+/// A few points on each face, within the box of its loops: about as far as the model reaches, which
+/// its control points may pass by far.
+vtkSmartPointer<vtkPoints> SamplesOf(vtkDataObject* model);
 
 /// All of a tessellator's output as one mesh: itself if it is one already.
 vtkSmartPointer<vtkPolyData> Joined(vtkDataObject* output);

@@ -61,7 +61,7 @@ void AddLights(vtkRenderer* renderer)
   {
     Vector Position;
     double Intensity;
-  } lights[] = { { { -0.5, 0.6, 1.0 }, 0.68 }, { { 1.0, 0.1, 0.7 }, 0.44 },
+  } lights[] = { { { -0.5, 0.6, 1.0 }, 0.74 }, { { 1.0, 0.1, 0.7 }, 0.46 },
     { { -0.3, -1.0, 0.6 }, 0.16 } };
   renderer->SetAutomaticLightCreation(false);
   for (const auto& each : lights)
@@ -137,7 +137,7 @@ vtkSmartPointer<vtkActor> FacesActor(vtkPolyData* mesh)
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   vtkProperty* property = actor->GetProperty();
-  property->SetColor(0.72, 0.75, 0.79);
+  property->SetColor(0.79, 0.81, 0.84);
   property->SetInterpolationToPhong();
   property->SetAmbient(0.12);
   property->SetDiffuse(0.95);
