@@ -465,7 +465,7 @@ void Converter::ConvertSurface()
 
 /// Rounding, fits and sloppy files leave control points of trim curves a little outside the domain,
 /// where splines may run wild. They are moved inside; by more than rounding only if the curve comes
-/// no farther from its edge than it is, or than the edge's tolerance.
+/// not much farther from its edge than it is or the tolerance allows.
 void Converter::ClampTrim(Part::TrimCurve& trim) const
 {
   constexpr double Rounding = 1e-9;
@@ -493,7 +493,7 @@ void Converter::ClampTrim(Part::TrimCurve& trim) const
     const std::size_t edge = static_cast<std::size_t>(trim.Edge);
     const double enough = std::max(this->Table.Sources[edge].Tolerance, 1e-9 * this->Table.Size);
     if ((*this->Table.Edges)[edge].Kind == Part::EdgeKind::Curve &&
-      this->Deviation(inside) > std::max(1.01 * this->Deviation(trim), enough))
+      this->Deviation(inside) > std::max(2.0 * this->Deviation(trim), enough))
     {
       return;
     }
