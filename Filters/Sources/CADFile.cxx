@@ -18,6 +18,7 @@ namespace
 
 constexpr std::streamoff HeadSize = 65536;
 constexpr std::streamoff TailSize = 8192;
+constexpr std::streamoff PieceSize = 1 << 20;
 
 std::string ReadPiece(std::ifstream& file, std::streamoff offset, std::streamoff size)
 {
@@ -66,6 +67,24 @@ std::optional<CADFormat> FormatOf(const std::string& head)
   return iso != std::string::npos && head.compare(0, 2, "/*") == 0
     ? std::optional<CADFormat>(CADFormat::STEP)
     : std::nullopt;
+}
+
+/// True if a line of the file begins with `keyword`, searched from the end.
+bool HasLine(std::ifstream& file, std::streamoff size, const std::string& keyword)
+{
+  const std::string wanted = "\n" + keyword;
+  const std::streamoff overlap = static_cast<std::streamoff>(wanted.size()) - 1;
+  for (std::streamoff end = size; end > 0;)
+  {
+    const std::streamoff begin = std::max<std::streamoff>(0, end - PieceSize);
+    const std::streamoff length = std::min(size, end + overlap) - begin;
+    if (ReadPiece(file, begin, length).find(wanted) != std::string::npos)
+    {
+      return true;
+    }
+    end = begin;
+  }
+  return false;
 }
 
 /// True if the last line that is not blank is the terminate section's.
@@ -135,6 +154,10 @@ CADFormat DetectCADFormat(const std::string& path)
   if (*format == CADFormat::IGES && !EndsAsIges(tail))
   {
     throw Error(quoted + " is a truncated IGES file: its terminate section is missing");
+  }
+  if (*format == CADFormat::BREP && !HasLine(file, size, "TShapes "))
+  {
+    throw Error(quoted + " is a truncated or broken BREP file: it has no table of shapes");
   }
   return *format;
 }

@@ -21,7 +21,8 @@ const char* NameOf(CADFormat format);
 
 /// The format by content; the extension is only used to word errors. Throws Error, naming the path,
 /// if it is missing, a directory, unreadable, empty, none of these formats, or visibly cut short (a
-/// STEP file without END-ISO-10303-21, an IGES file without its terminate section).
+/// STEP file without END-ISO-10303-21, an IGES file without its terminate section, a BREP text
+/// without its table of shapes).
 CADFormat DetectCADFormat(const std::string& path);
 
 } // namespace nurbs

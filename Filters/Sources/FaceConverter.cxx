@@ -156,6 +156,10 @@ Use Converter::MakeUse(const TopoDS_Edge& edge) const
   {
     throw Error("an edge has no curve on the surface, and none could be computed");
   }
+  if (!(use.First < use.Last))
+  {
+    throw Error("an edge has an empty or reversed parameter range");
+  }
   return use;
 }
 

@@ -78,14 +78,15 @@ void ParameterMap::AppendBreaks(double a, double b, std::vector<double>& breaks)
     return;
   }
   const double h = this->Span();
+  const double rounding = 1e-10 * h;
   for (double k = std::floor((a - this->Start) / h);; k += 1.0)
   {
     const double t = this->Start + k * h;
-    if (t >= b)
+    if (t >= b - rounding)
     {
       return;
     }
-    if (t > a)
+    if (t > a + rounding)
     {
       breaks.push_back(t);
     }
