@@ -126,6 +126,26 @@ NURBS_INLINE void SpanBasis(const double* knots, const double* inverse, int degr
   derivatives[p] = slope;
 }
 
+/// Second derivatives of the basis functions on one span: two differences of those of degree - 2.
+inline void SpanSecondDerivatives(const DirectionTables& tables, int span, double t, double* values)
+{
+  const int p = tables.Degree;
+  const double* knots = tables.Knots + span;
+  const double* inverse = tables.Inverse.data() + std::int64_t(span) * (p * (p + 1) / 2);
+  values[0] = p < 2 ? 0.0 : 1.0;
+  for (int d = 1; d <= p; ++d)
+  {
+    double saved = 0.0;
+    for (int r = 0; r < d; ++r)
+    {
+      const double scaled = values[r] * *inverse++;
+      values[r] = d > p - 2 ? saved - d * scaled : saved + (knots[r + 1] - t) * scaled;
+      saved = d > p - 2 ? d * scaled : (t - knots[r + 1 - d]) * scaled;
+    }
+    values[d] = saved;
+  }
+}
+
 /// The inner sum of Balazs' equation (1) for one column of the net: the value, then the v
 /// derivative.
 template <typename Quad, int Q>
@@ -454,6 +474,39 @@ struct EvaluatorKernel
     sum.Store(h[0][0].data());
     sumU.Store(h[1][0].data());
     sumV.Store(h[0][1].data());
+  }
+
+  /// The second derivatives in addition.
+  static void Second(SurfaceEvaluator& e, const Vec2& uv, Vec4 (&h)[3][3])
+  {
+    First(e, uv, h);
+    const int p = e.View.Degree[0];
+    const int q = e.View.Degree[1];
+    double d2[2][MaxDegree + 1];
+    for (int dir = 0; dir < 2; ++dir)
+    {
+      SpanSecondDerivatives(e.Shared->Dir[dir], e.Span[dir], uv[dir], d2[dir]);
+    }
+    const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
+    const double* column =
+      e.Shared->Net.data() + (e.Span[1] - q) * stride + 4 * std::int64_t(e.RowStart);
+    Quad uu = {};
+    Quad mixed = {};
+    Quad vv = {};
+    for (int i = 0; i <= p; ++i)
+    {
+      uu = uu + d2[0][i] * Quad::Load(e.Row + 8 * i);
+      mixed = mixed + e.Basis[0][1][i] * Quad::Load(e.Row + 8 * i + 4);
+      Quad inner = d2[1][0] * Quad::Load(column + 4 * i);
+      for (int j = 1; j <= q; ++j)
+      {
+        inner = inner + d2[1][j] * Quad::Load(column + 4 * i + j * stride);
+      }
+      vv = vv + e.Basis[0][0][i] * inner;
+    }
+    uu.Store(h[2][0].data());
+    mixed.Store(h[1][1].data());
+    vv.Store(h[0][2].data());
   }
 
   static NURBS_INLINE void Batch(

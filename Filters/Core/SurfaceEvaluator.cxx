@@ -120,14 +120,14 @@ Vec3 SurfaceEvaluator::Point(double u, double v)
 
 SurfaceDerivatives SurfaceEvaluator::Derivatives(double u, double v, int order)
 {
-  if (order != 1)
+  if (order < 1 || order > 2)
   {
-    return EvaluateDerivatives(this->View, u, v, order);
+    throw Error("derivatives of order " + std::to_string(order) + " are not available");
   }
   Vec4 h[3][3];
   const Vec2 uv(u, v);
-  Narrow::First(*this, uv, h);
-  return ProjectDerivatives(h, 1);
+  order == 2 ? Narrow::Second(*this, uv, h) : Narrow::First(*this, uv, h);
+  return ProjectDerivatives(h, order);
 }
 
 void SurfaceEvaluator::PointAndNormal(double u, double v, Vec3& point, Vec3& normal)

@@ -20,7 +20,7 @@ namespace nurbs
 /// with nurbs::Evaluate to round-off.
 ///
 /// One object per thread; copies are cheap and share the net. The surface's knots, points and
-/// weights must outlive the evaluator. Throws nothing; parameters outside the domain extrapolate.
+/// weights must outlive the evaluator. Parameters outside the domain extrapolate.
 class SurfaceEvaluator
 {
 public:
@@ -30,7 +30,7 @@ public:
   /// Cartesian point.
   Vec3 Point(double u, double v);
 
-  /// Point and derivatives to `order` (1 or 2).
+  /// Point and derivatives to `order`. Throws Error unless it is 1 or 2.
   SurfaceDerivatives Derivatives(double u, double v, int order);
 
   /// Point and unit normal, exact at poles (see nurbs::Normal).

@@ -60,14 +60,24 @@ TEST(SurfaceEvaluator, AgreesWithPlainEvaluation)
       EXPECT_LT((point - Evaluate(view, uv[0], uv[1])).norm(), 2e-13);
       // Random surfaces are steep here and there; an angle of 1e-9 is still far from visible.
       EXPECT_LT((normal - Normal(view, uv[0], uv[1])).norm(), 1e-9);
-      const SurfaceDerivatives a = evaluator.Derivatives(uv[0], uv[1], 2);
-      const SurfaceDerivatives b = EvaluateDerivatives(view, uv[0], uv[1], 2);
-      EXPECT_LT((a.S - b.S).norm(), 2e-13);
-      EXPECT_LT((a.Su - b.Su).norm(), 1e-12 * (1.0 + b.Su.norm()) * s.Degree[0]);
-      EXPECT_LT((a.Svv - b.Svv).norm(),
-        1e-11 * (1.0 + b.Svv.norm() + b.Sv.norm()) * s.Degree[1] * s.Degree[1]);
+      for (int order : { 1, 2 })
+      {
+        const SurfaceDerivatives a = evaluator.Derivatives(uv[0], uv[1], order);
+        const SurfaceDerivatives b = EvaluateDerivatives(view, uv[0], uv[1], order);
+        const double scale = 1e-12 * (30.0 + b.Su.norm() + b.Sv.norm());
+        EXPECT_LT((a.S - b.S).norm(), 2e-13);
+        EXPECT_LT((a.Su - b.Su).norm(), scale * s.Degree[0]);
+        EXPECT_LT((a.Sv - b.Sv).norm(), scale * s.Degree[1]);
+        const double second = 100.0 * scale + 1e-12 * (b.Suu.norm() + b.Svv.norm());
+        EXPECT_LT((a.Suu - b.Suu).norm(), second * s.Degree[0] * s.Degree[0]);
+        EXPECT_LT((a.Suv - b.Suv).norm(), second * s.Degree[0] * s.Degree[1]);
+        EXPECT_LT((a.Svv - b.Svv).norm(), second * s.Degree[1] * s.Degree[1]);
+      }
     }
   }
+  const Surface sphere = reference::Sphere(1.0);
+  SurfaceEvaluator evaluator(sphere.View());
+  EXPECT_THROW(evaluator.Derivatives(0.5, 0.5, 3), Error);
 }
 
 TEST(SurfaceEvaluator, AllWaysGiveTheSameBits)
