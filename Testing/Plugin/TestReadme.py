@@ -11,12 +11,12 @@ readme = Path(sys.argv[1]).read_text(encoding="utf-8")
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     exec(compile(pipeline, "README.md", "exec"))
-    (mesh,) = Path(folder).glob("*.vtp")
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    (mesh,) = Path(folder).glob("*.vtpc")
+    from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
-    check = vtkXMLPolyDataReader()
+    check = vtkXMLPartitionedDataSetCollectionReader()
     check.SetFileName(str(mesh))
     check.Update()
-    triangles = check.GetOutput().GetNumberOfPolys()
+    triangles = check.GetOutput().GetNumberOfCells()
     assert triangles > 1000, triangles
 print("README: the pipeline wrote", triangles, "triangles")
