@@ -110,7 +110,7 @@ private:
     loop.insert(loop.end(), part.begin(), part.end());
   }
 
-  // A degenerate side has one point, but as many parameters as the surface has lines there.
+  // A degenerate side has one point, but as many parameters as the cells there have corners.
   void PoleParameters(const TrimCurve& curve, const Interval& domain, std::vector<double>& ts)
   {
     if (!this->Job.Tree)
@@ -121,15 +121,20 @@ private:
     const Vec2 b = Evaluate(curve.Geometry, TrimParameter(curve, domain, domain.Max));
     const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
     std::vector<double> inner;
-    for (double line : this->Job.Tree->Lines(d))
-    {
-      const double s = (line - a[d]) / (b[d] - a[d]);
-      if (s > 1e-6 && s < 1.0 - 1e-6)
+    const auto add = [&](double line) {
+      const double t = (line - a[d]) / (b[d] - a[d]);
+      if (t > 1e-6 && t < 1.0 - 1e-6)
       {
-        inner.push_back(domain.Min + s * domain.Length());
+        inner.push_back(domain.Min + t * domain.Length());
       }
-    }
+    };
+    this->Job.Tree->QuerySegment(a, b, 1e-9, [&](int k) {
+      const ParameterBox& box = this->Job.Tree->Leaves()[k].Box;
+      add(d == 0 ? box.U0 : box.V0);
+      add(d == 0 ? box.U1 : box.V1);
+    });
     std::sort(inner.begin(), inner.end());
+    inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
     ts.insert(ts.begin() + 1, inner.begin(), inner.end());
   }
 
@@ -606,7 +611,9 @@ private:
         continue;
       }
       const FacetBound facet = this->Facet(t.data(), NoLeaf);
-      if (this->FacetError(t.data(), facet) <= this->Limit())
+      const bool folded = facet.HasPlane() && this->IsFolded(t.data(), facet.Normal());
+      if ((folded && this->SplitSegments(t.data())) ||
+        (!folded && this->FacetError(t.data(), facet) <= this->Limit()))
       {
         continue;
       }
@@ -649,6 +656,26 @@ private:
         this->Mesh.UV.push_back(p);
       }
     }
+  }
+
+  bool IsFolded(const int* t, const Vec3& n) const
+  {
+    return n.dot(this->Mesh.Normals[t[0]]) < 0.0 && n.dot(this->Mesh.Normals[t[1]]) < 0.0 &&
+      n.dot(this->Mesh.Normals[t[2]]) < 0.0;
+  }
+
+  // Asks for vertices on a triangle's boundary segments; false: it has none that can be split.
+  bool SplitSegments(const int* t)
+  {
+    const std::size_t before = this->Requests.size();
+    for (int i = 0; i < 3; ++i)
+    {
+      if (this->IsSegment(t[i], t[(i + 1) % 3]))
+      {
+        this->RequestSplit(t[i]);
+      }
+    }
+    return this->Requests.size() > before;
   }
 
   // A split of `edge` would leave a sliver at one of the triangle's boundary segments: asks for a

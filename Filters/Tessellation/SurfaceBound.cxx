@@ -149,9 +149,19 @@ bool SurfaceBound::IsPlanar(double tolerance, Vec3& normal, double& distance) co
 
 bool SurfaceBound::InOneSpan(const ParameterBox& box) const
 {
-  const int su = FindSpan(this->Surface.Knots[0], this->Surface.Degree[0], box.U0);
-  const int sv = FindSpan(this->Surface.Knots[1], this->Surface.Degree[1], box.V0);
-  return box.U1 <= this->Surface.Knots[0][su + 1] && box.V1 <= this->Surface.Knots[1][sv + 1];
+  const double low[2] = { box.U0, box.V0 };
+  const double high[2] = { box.U1, box.V1 };
+  for (int d = 0; d < 2; ++d)
+  {
+    const KnotView& knots = this->Surface.Knots[d];
+    const int span = FindSpan(knots, this->Surface.Degree[d], 0.5 * (low[d] + high[d]));
+    const double eps = NegligibleSpan * (high[d] - low[d]);
+    if (low[d] < knots[span] - eps || high[d] > knots[span + 1] + eps)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 namespace
@@ -194,8 +204,8 @@ void SurfaceBound::Extract(const ParameterBox& box, BezierPatch& patch) const
 {
   const int p = this->Surface.Degree[0];
   const int q = this->Surface.Degree[1];
-  const int ku = FindSpan(this->Surface.Knots[0], p, box.U0);
-  const int kv = FindSpan(this->Surface.Knots[1], q, box.V0);
+  const int ku = FindSpan(this->Surface.Knots[0], p, 0.5 * (box.U0 + box.U1));
+  const int kv = FindSpan(this->Surface.Knots[1], q, 0.5 * (box.V0 + box.V1));
   std::vector<double> mu;
   std::vector<double> mv;
   BlossomMatrix(this->Surface.Knots[0], p, ku, box.U0, box.U1, mu);
@@ -350,9 +360,14 @@ void SurfaceBound::FromNets(const ParameterBox& box, const Vec3& origin, Coeffic
     const KnotView& knots = this->Surface.Knots[d];
     lo[d] = FindSpan(knots, p[d], from[d]);
     hi[d] = FindSpan(knots, p[d], to[d]);
-    while (hi[d] > lo[d] && knots[hi[d]] >= to[d])
+    const double eps = NegligibleSpan * (to[d] - from[d]);
+    while (hi[d] > lo[d] && knots[hi[d]] >= to[d] - eps)
     {
       --hi[d];
+    }
+    while (lo[d] < hi[d] && knots[lo[d] + 1] <= from[d] + eps)
+    {
+      ++lo[d];
     }
   }
   // Derivatives of order (ou, ov) have coefficients span - p .. span - o in the indexing above.

@@ -19,6 +19,9 @@
 namespace nurbs
 {
 
+/// Share of a box's extent up to which a knot span that it touches does not count.
+inline constexpr double NegligibleSpan = 1e-6;
+
 /// A rectangle of the parameter domain.
 struct ParameterBox
 {

@@ -31,7 +31,8 @@ int SamplesOfSpan(int degree, std::size_t spans)
 std::vector<double> SpanBreaks(KnotView knots, int degree, double low, double high)
 {
   std::vector<double> breaks{ low };
-  const double eps = 1e-12 * (std::abs(low) + std::abs(high));
+  // Spans of no width to speak of at the ends are noise of CAD kernels; they would make slivers.
+  const double eps = NegligibleSpan * (high - low);
   for (const Knot& knot : DistinctKnots(knots, degree))
   {
     if (knot.Value > low + eps && knot.Value < high - eps)
