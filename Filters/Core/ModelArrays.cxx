@@ -469,6 +469,7 @@ std::string Assembler::FaceLoopsReason(std::int64_t i) const
   {
     return RangeText("LoopCurveStart", first, count, model.Loops.size());
   }
+  std::int64_t curves = 0;
   for (std::int64_t l = first; l < first + count; ++l)
   {
     const TrimLoop& loop = model.Loops[l];
@@ -481,6 +482,11 @@ std::string Assembler::FaceLoopsReason(std::int64_t i) const
     if (loop.CurveCount == 0)
     {
       return name + "it has no trim curve";
+    }
+    curves += loop.CurveCount; // Loops that overlap could take quadratic time.
+    if (curves > static_cast<std::int64_t>(model.TrimCurves.size()))
+    {
+      return name + "the loops up to this one use more trim curves than there are";
     }
     for (std::int64_t c = 0; c < loop.CurveCount; ++c)
     {

@@ -62,11 +62,10 @@ Vec2 CurveEnd(const TrimCurve& curve, int end)
 }
 
 /// True if the straight line from a to b in the domain, lifted, stays at one point: a pole, or a
-/// gap within `tolerance` of the edges that should meet there.
+/// gap within the tolerance of the edges that should meet there; `limit` is a length.
 bool IsOnePoint(
-  const Face& face, const DomainBox& domain, const Vec2& a, const Vec2& b, double tolerance)
+  const Face& face, const DomainBox& domain, const Vec2& a, const Vec2& b, double limit)
 {
-  const double limit = std::max(tolerance, SamePointPart * NetBox(face.Geometry).diagonal().norm());
   const Vec2 ca = domain.Clamp(a), cb = domain.Clamp(b);
   const Vec3 start = Evaluate(face.Geometry, ca[0], ca[1]);
   for (int i = 1; i <= 8; ++i)
@@ -185,11 +184,21 @@ std::string Part(double value)
   return text.str();
 }
 
+/// What the checks of a face's loops share.
+struct LoopContext
+{
+  const nurbs::Model& Model;
+  const nurbs::Face& Face;
+  DomainBox Domain;
+  double GapLimit;     ///< Part of the domain.
+  double OnePointSize; ///< Length under which lifted points are one.
+};
+
 /// The reason why the loop is open, or "".
-std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop,
-  const DomainBox& domain, double gapLimit, const std::string& name,
+std::string CheckGaps(const LoopContext& context, const TrimLoop& loop, const std::string& name,
   std::vector<std::string>& warnings)
 {
+  const Model& model = context.Model;
   double largest = 0.0;
   for (std::int64_t c = 0; c < loop.CurveCount; ++c)
   {
@@ -198,10 +207,10 @@ std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop
     const TrimCurve& after = model.TrimCurves[loop.FirstCurve + next];
     const Vec2 a = CurveEnd(before, 1), b = CurveEnd(after, 0);
     const double tolerance = 2.0 * (EdgeToleranceOf(model, before) + EdgeToleranceOf(model, after));
-    const double gap = (domain.Relative(b) - domain.Relative(a)).norm();
-    const bool closed = gap <= gapLimit ||
+    const double gap = (context.Domain.Relative(b) - context.Domain.Relative(a)).norm();
+    const bool closed = gap <= context.GapLimit ||
       (gap <= VertexGapLimit && MeetInVertex(model, before, after)) ||
-      IsOnePoint(face, domain, a, b, tolerance);
+      IsOnePoint(context.Face, context.Domain, a, b, std::max(tolerance, context.OnePointSize));
     if (!closed)
     {
       return name + "it is open: between its trim curves " + std::to_string(c) + " and " +
@@ -216,37 +225,48 @@ std::string CheckGaps(const Model& model, const Face& face, const TrimLoop& loop
   return std::string();
 }
 
+/// The reason why the loop leaves the domain too far, or "".
+std::string CheckExcess(const LoopContext& context, const TrimLoop& loop, const std::string& name,
+  std::vector<std::string>& warnings)
+{
+  double excess = 0.0;
+  for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+  {
+    excess = std::max(excess, CurveExcess(context.Model.TrimCurves[c].Geometry, context.Domain));
+  }
+  if (!(excess > WarnedPart)) // The usual case, and text is slow.
+  {
+    return std::string();
+  }
+  const std::string reason = name + "it leaves the surface's domain by " + Part(excess);
+  if (excess <= ExcessLimit)
+  {
+    warnings.push_back(reason);
+    return std::string();
+  }
+  return reason;
+}
+
 } // namespace
 
 std::string CheckLoops(
   const Model& model, const Face& face, double gapLimit, std::vector<std::string>& warnings)
 {
-  const DomainBox domain(face.Geometry);
+  const LoopContext context{ model, face, DomainBox(face.Geometry), gapLimit,
+    SamePointPart * NetBox(face.Geometry).diagonal().norm() };
   for (std::int64_t l = 0; l < face.LoopCount; ++l)
   {
     const TrimLoop& loop = model.Loops[face.FirstLoop + l];
     const std::string name = "loop " + std::to_string(l) + ": ";
-    double excess = 0.0;
-    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    std::string reason = CheckExcess(context, loop, name, warnings);
+    reason = reason.empty() ? CheckGaps(context, loop, name, warnings) : reason;
+    if (!reason.empty())
     {
-      excess = std::max(excess, CurveExcess(model.TrimCurves[c].Geometry, domain));
-    }
-    if (!(excess <= ExcessLimit))
-    {
-      return name + "it leaves the surface's domain by " + Part(excess);
-    }
-    if (excess > WarnedPart)
-    {
-      warnings.push_back(name + "it leaves the surface's domain by " + Part(excess));
-    }
-    const std::string open = CheckGaps(model, face, loop, domain, gapLimit, name, warnings);
-    if (!open.empty())
-    {
-      return open;
+      return reason;
     }
     // Samples cost more than control points, and a loop without area has them on a line.
-    if (PolygonMeasure(ControlPolygon(model, loop, domain)).IsFlat() &&
-      PolygonMeasure(SampledPolygon(model, loop, domain)).IsFlat())
+    if (PolygonMeasure(ControlPolygon(model, loop, context.Domain)).IsFlat() &&
+      PolygonMeasure(SampledPolygon(model, loop, context.Domain)).IsFlat())
     {
       warnings.push_back(name + "it encloses no area");
     }

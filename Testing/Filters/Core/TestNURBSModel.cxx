@@ -21,6 +21,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkStringArray.h"
@@ -35,6 +36,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -347,6 +349,21 @@ TEST(ModelInPipelines, AssembliesPassThroughTheFilters)
   ASSERT_NE(nets, nullptr);
   EXPECT_EQ(
     vtkPolyData::SafeDownCast(nets->GetPartitionAsDataObject(1, 0))->GetNumberOfVerts(), 32);
+}
+
+TEST(ModelArrays, ProblemsDoNotDependOnThreads)
+{
+  const Grid grid = Make(vtkNURBSShapeSource::CAR_BODY);
+  for (vtkIdType point = 5; point < grid->GetNumberOfPoints(); point += 250)
+  {
+    grid->GetPoints()->SetPoint(point, std::nan(""), 0, 0);
+  }
+  const std::string serial = vtkNURBSModel::Validate(grid);
+  EXPECT_EQ(std::count(serial.begin(), serial.end(), '\n'), 8); // Every 250th of 60 x 36 points.
+  std::string threaded;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 4, "STDThread", true },
+    [&threaded, &grid]() { threaded = vtkNURBSModel::Validate(grid); });
+  EXPECT_EQ(serial, threaded);
 }
 
 TEST(ModelArrays, EmptyAndForeignGrids)

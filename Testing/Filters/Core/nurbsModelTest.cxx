@@ -317,6 +317,10 @@ TEST(Model, BadRanges)
   builder = TwoSquares();
   builder.Data.LoopCurveCount[1] = 0;
   ExpectFirstFaceBad(builder, { "loop 1", "no trim curve" });
+  builder = TwoSquares();
+  builder.Data.LoopCurveStart[1] = 0;
+  builder.Data.LoopCurveCount[1] = 11;
+  ExpectFirstFaceBad(builder, { "loop 1", "more trim curves than there are" });
 }
 
 TEST(Model, ArraysWhoseSizesDisagree)
