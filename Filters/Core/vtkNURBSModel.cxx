@@ -4,6 +4,7 @@
 #include "ModelBuilder.h"
 #include "vtkNURBSModelNames.h"
 #include "vtkNURBSModelView.h"
+#include "vtkNURBSParallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -265,6 +266,50 @@ void vtkNURBSModel::Store(nurbs::ModelBuilder& builder, vtkUnstructuredGrid* gri
   AddStrings(grid->GetFieldData(), names::LengthUnit, { builder.LengthUnit });
 }
 
+namespace
+{
+
+/// to[k] = from[tuples[k]] for arrays of one type and number of components.
+void CopyTuples(vtkAbstractArray* from, vtkIdTypeArray* tuples, vtkAbstractArray* to)
+{
+  const vtkIdType count = tuples->GetNumberOfTuples();
+  const vtkIdType* ids = tuples->GetPointer(0);
+  const int width = from->GetNumberOfComponents();
+  auto* strings = vtkStringArray::SafeDownCast(from);
+  auto* newStrings = vtkStringArray::SafeDownCast(to);
+  if (strings && newStrings)
+  {
+    vtkNURBSParallelFor(0, width * count, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        *newStrings->GetPointer(k) = *strings->GetPointer(width * ids[k / width] + k % width);
+      }
+    });
+    return;
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(from);
+  if (!numbers || !numbers->HasStandardMemoryLayout() || !to->HasStandardMemoryLayout() ||
+    from->GetDataType() == VTK_BIT)
+  {
+    for (vtkIdType k = 0; k < count; ++k)
+    {
+      to->SetTuple(k, ids[k], from);
+    }
+    return;
+  }
+  const std::size_t bytes = static_cast<std::size_t>(from->GetDataTypeSize()) * width;
+  const char* source = static_cast<const char*>(from->GetVoidPointer(0));
+  char* target = static_cast<char*>(to->GetVoidPointer(0));
+  vtkNURBSParallelFor(0, count, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k)
+    {
+      std::memcpy(target + k * bytes, source + ids[k] * bytes, bytes);
+    }
+  });
+}
+
+} // namespace
+
 void vtkNURBSModel::CopyFaceAttributes(
   vtkUnstructuredGrid* grid, vtkIdTypeArray* faces, vtkDataSetAttributes* target)
 {
@@ -284,10 +329,7 @@ void vtkNURBSModel::CopyFaceAttributes(
     to->SetNumberOfComponents(from->GetNumberOfComponents());
     to->CopyComponentNames(from);
     to->SetNumberOfTuples(count);
-    for (vtkIdType k = 0; k < count; ++k)
-    {
-      to->SetTuple(k, faces->GetValue(k), from);
-    }
+    CopyTuples(from, faces, to);
     target->AddArray(to);
   }
   vtkAbstractArray* identity = source->GetAbstractArray(names::FaceId);

@@ -115,10 +115,16 @@ std::vector<double> vtkNURBSFaceExtent::PixelTolerances(const std::vector<nurbs:
       continue;
     }
     double depth = std::numeric_limits<double>::max();
+    double farthest = -std::numeric_limits<double>::max();
     for (int c = 0; c < 8; ++c)
     {
       const nurbs::Vec3 p = boxes[f].corner(static_cast<nurbs::Box3::CornerType>(c));
       depth = std::min(depth, (p - eye).dot(forward));
+      farthest = std::max(farthest, (p - eye).dot(forward));
+    }
+    if (farthest < near) // unseen
+    {
+      depth = boxes[f].exteriorDistance(eye);
     }
     tolerances[f] = std::max(least, pixels * perPixel * cosine * std::max(near, depth));
   }

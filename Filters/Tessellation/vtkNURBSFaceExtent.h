@@ -22,7 +22,8 @@ std::vector<nurbs::Box3> FaceBoxes(const nurbs::Model& model,
 double Diagonal(const std::vector<nurbs::Box3>& boxes);
 
 /// The length, in space, that looks `pixels` long in the view at the depth of each box's nearest
-/// corner, wherever in the view it is and however it is turned. At least `least`.
+/// corner, wherever in the view it is and however it is turned; of a box behind the near plane, at
+/// its distance from the eye. At least `least`.
 std::vector<double> PixelTolerances(const std::vector<nurbs::Box3>& boxes, vtkCamera* camera,
   const int viewport[2], double pixels, double least);
 

@@ -8,11 +8,11 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSMPTools.h"
 #include "vtkStringArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
@@ -119,8 +119,8 @@ vtkSmartPointer<vtkCellArray> CopyMeshes(
   }
   T* corners = connectivity->GetPointer(0);
   const vtkIdType faces = vtkIdType(range.LastMesh - range.FirstMesh);
-  vtkSMPTools::For(0, faces, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType f = begin; f < end; ++f)
+  vtkNURBSParallelFor(0, faces, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f)
     {
       CopyMesh(range.Result->Meshes[range.FirstMesh + f], f, offsets, arrays, corners);
     }
@@ -274,6 +274,12 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
   field->AddArray(errors);
   field->AddArray(status);
   field->AddArray(messages);
+  if (range.FaceTolerances)
+  {
+    auto tolerances = NewArray<vtkDoubleArray>("FaceTolerance", 1, faces);
+    std::copy_n(range.FaceTolerances, faces, tolerances->GetPointer(0));
+    field->AddArray(tolerances);
+  }
   AddValue<vtkDoubleArray>(field, "CertifiedError", largest);
   AddValue<vtkDoubleArray>(field, "Tolerance", range.Tolerance);
   AddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());

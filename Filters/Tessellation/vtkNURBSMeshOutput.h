@@ -20,7 +20,8 @@ struct Range
   nurbs::TessellationResult* Result = nullptr;
   std::size_t FirstMesh = 0, LastMesh = 0;
   std::size_t FirstLine = 0, LastLine = 0;
-  double Tolerance = 0.0; ///< Told in the output's field data.
+  double Tolerance = 0.0;                 ///< Told in the output's field data.
+  const double* FaceTolerances = nullptr; ///< Likewise, from FirstMesh on; null: all the same.
   bool MergePoints = false;
 };
 

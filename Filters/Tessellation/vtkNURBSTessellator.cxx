@@ -13,11 +13,11 @@
 #include "vtkNURBSMeshOutput.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
+#include "vtkNURBSParallel.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -25,9 +25,8 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <mutex>
+#include <future>
 #include <sstream>
-#include <thread>
 
 vtkStandardNewMacro(vtkNURBSTessellator);
 vtkCxxSetObjectMacro(vtkNURBSTessellator, Camera, vtkCamera);
@@ -36,34 +35,12 @@ namespace
 {
 
 constexpr int MaxNamedFaces = 8; // in the warning
+constexpr std::chrono::milliseconds ProgressInterval(20);
 
 double Now()
 {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-// A parallel loop by vtkSMPTools, one item a chunk; what a thread throws is thrown again here.
-void SMPFor(std::int64_t first, std::int64_t last,
-  const std::function<void(std::int64_t, std::int64_t)>& body)
-{
-  std::mutex mutex;
-  std::exception_ptr problem;
-  vtkSMPTools::For(first, last, 1, [&](vtkIdType begin, vtkIdType end) {
-    try
-    {
-      body(begin, end);
-    }
-    catch (...)
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      problem = problem ? problem : std::current_exception();
-    }
-  });
-  if (problem)
-  {
-    std::rethrow_exception(problem);
-  }
 }
 
 // Appends a model to one that has others already.
@@ -274,7 +251,7 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   options.MaximumEdgeLength = this->MaximumEdgeLength;
   options.MaximumAngle = vtkMath::RadiansFromDegrees(this->MaximumAngle);
   options.MaximumFaceTriangles = this->MaximumFaceTriangles;
-  options.Parallel = SMPFor;
+  options.Parallel = vtkNURBSParallelFor;
   if (this->ToleranceMode == ABSOLUTE)
   {
     if (!(this->AbsoluteTolerance > 0.0) || !std::isfinite(this->AbsoluteTolerance))
@@ -286,7 +263,7 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
     return true;
   }
   const std::vector<nurbs::Box3> boxes =
-    vtkNURBSFaceExtent::FaceBoxes(work.Model, work.FaceErrors, SMPFor);
+    vtkNURBSFaceExtent::FaceBoxes(work.Model, work.FaceErrors, vtkNURBSParallelFor);
   const double diagonal = vtkNURBSFaceExtent::Diagonal(boxes);
   options.Tolerance = (diagonal > 0.0 ? diagonal : 1.0) * this->Tolerance;
   if (this->ToleranceMode == RELATIVE)
@@ -308,27 +285,37 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   return true;
 }
 
+// The work is done in another thread, whichever threads it is spread over there, so that observers
+// of the progress run in this one, are called while it lasts, and can abort it.
 bool vtkNURBSTessellator::Tessellate(Work& work)
 {
-  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<double> progress{ 0.0 };
   std::atomic<bool> abort{ false };
-  work.Options.Progress = [this, caller, &abort](double done) {
-    if (std::this_thread::get_id() == caller)
-    {
-      this->UpdateProgress(0.95 * done);
-      abort = abort || this->GetAbortExecute() != 0;
-    }
+  const auto report = [this, &progress, &abort]() {
+    this->UpdateProgress(0.95 * progress);
+    abort = abort || this->GetAbortExecute() != 0;
+  };
+  work.Options.Progress = [&progress, &abort](double done) {
+    progress = done;
     return !abort;
   };
+  report();
+  auto result = std::async(std::launch::async,
+    [&work]() { return nurbs::Tessellate(work.Model, work.FaceErrors, work.Options); });
+  while (result.wait_for(ProgressInterval) != std::future_status::ready)
+  {
+    report();
+  }
   try
   {
-    work.Result = nurbs::Tessellate(work.Model, work.FaceErrors, work.Options);
+    work.Result = result.get();
   }
   catch (const std::exception& problem)
   {
     vtkErrorMacro("Tessellation failed: " << problem.what());
     return false;
   }
+  work.Result.Aborted = work.Result.Aborted || abort;
   return true;
 }
 
@@ -364,12 +351,16 @@ void vtkNURBSTessellator::FillOutputs(
       ++line;
     }
     range.LastLine = line;
-    range.Tolerance = work.Options.Tolerance;
+    range.Tolerance = this->ToleranceUsed;
+    range.FaceTolerances = work.Options.FaceTolerances.empty()
+      ? nullptr
+      : work.Options.FaceTolerances.data() + range.FirstMesh;
     range.MergePoints = this->MergePoints;
     vtkPolyData* mesh = NewLeaf(meshes, at);
     vtkNURBSMeshOutput::FillMesh(range, leaf.Grid, mesh);
     vtkNURBSMeshOutput::FillLines(range, leaf.Grid, leaf.FirstEdge, NewLeaf(lines, at));
     this->NumberOfTriangles += mesh->GetNumberOfPolys();
+    this->NumberOfPoints += mesh->GetNumberOfPoints();
     if (at)
     {
       at->GoToNextItem();
@@ -381,7 +372,7 @@ void vtkNURBSTessellator::FillOutputs(
 void vtkNURBSTessellator::Summarize(const Work& work)
 {
   this->NumberOfFaces = vtkIdType(work.Result.Meshes.size());
-  this->ToleranceUsed = work.Options.Tolerance;
+  this->ToleranceUsed = work.Options.FaceTolerances.empty() ? work.Options.Tolerance : 0.0;
   std::ostringstream named;
   int count = 0;
   std::size_t leaf = 0;
@@ -393,6 +384,10 @@ void vtkNURBSTessellator::Summarize(const Work& work)
     }
     const nurbs::FaceMesh& mesh = work.Result.Meshes[f];
     this->CertifiedError = std::max(this->CertifiedError, mesh.CertifiedError);
+    if (!work.Options.FaceTolerances.empty() && mesh.Status != nurbs::FaceStatus::Failed)
+    {
+      this->ToleranceUsed = std::max(this->ToleranceUsed, work.Options.FaceTolerances[f]);
+    }
     this->NumberOfRepairedFaces += mesh.Status == nurbs::FaceStatus::Repaired;
     this->NumberOfCappedFaces += mesh.Status == nurbs::FaceStatus::Capped;
     this->NumberOfFailedFaces += mesh.Status == nurbs::FaceStatus::Failed;
@@ -420,7 +415,8 @@ int vtkNURBSTessellator::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
-  this->NumberOfTriangles = this->NumberOfFaces = this->NumberOfRepairedFaces = 0;
+  this->NumberOfTriangles = this->NumberOfPoints = this->NumberOfFaces = 0;
+  this->NumberOfRepairedFaces = 0;
   this->NumberOfCappedFaces = this->NumberOfFailedFaces = 0;
   this->CertifiedError = this->ToleranceUsed = this->TessellateSeconds = this->OutputSeconds = 0.0;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
@@ -428,12 +424,14 @@ int vtkNURBSTessellator::RequestData(
   {
     CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
+  const vtkNURBSParallelScope parallel;
   Work work;
   if (!this->CollectModels(input, work) || !this->FillOptions(work) || !this->Tessellate(work))
   {
     this->SetErrorCode(vtkErrorCode::UserError);
     return 0;
   }
+  this->SetErrorCode(vtkErrorCode::NoError);
   this->TessellateSeconds = Now() - start;
   if (work.Result.Aborted)
   {
@@ -471,6 +469,7 @@ void vtkNURBSTessellator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumFaceTriangles: " << this->MaximumFaceTriangles << "\n";
   os << indent << "MergePoints: " << this->MergePoints << "\n";
   os << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n";
+  os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";
   os << indent << "CertifiedError: " << this->CertifiedError << "\n";
   os << indent << "ToleranceUsed: " << this->ToleranceUsed << "\n";
   os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";

@@ -5,7 +5,9 @@
  *
  * The input is a model of vtkNURBSModel (a vtkUnstructuredGrid), or a composite data set of models
  * (vtkPartitionedDataSetCollection, vtkMultiBlockDataSet, ...). All faces of all models are one pool
- * of work, shared out to threads by vtkSMPTools; the result does not depend on their number.
+ * of work, shared out to threads by vtkSMPTools; the result does not depend on their number. Where
+ * vtkSMPTools would use one thread only for want of a choice of backend, as in Debian's ParaView,
+ * "STDThread" is used during the execution (see vtkNURBSParallelScope).
  *
  * Output port 0 is a vtkPolyData of triangles, or a composite data set of the input's type and
  * structure with one vtkPolyData a model. Faces that share an edge share the coordinates of its
@@ -21,13 +23,15 @@
  * | field data | FaceCertifiedError (double, 1 a face) | bound of the distance of triangles and face |
  * | field data | FaceStatus (unsigned char, 1 a face) | 0 ok, 1 repaired, 2 capped, 3 failed |
  * | field data | FaceStatusMessage (string, 1 a face) | why the status is not 0 |
+ * | field data | FaceTolerance (double, 1 a face) | in PIXELS mode: the face's own tolerance |
  * | field data | CertifiedError, Tolerance (double), NumberOfTriangles | of this model |
  *
  * Output port 1 has the trim curves as polylines, each with the cell data `EdgeId` (-1 if no other
  * curve shares it) and `FaceId`; the same structure as port 0.
  *
  * Faces that failed or were capped are named in one warning. An input without NURBS arrays is an
- * error. Reports progress and obeys AbortExecute, which leaves the outputs empty.
+ * error. Reports progress and obeys AbortExecute, which leaves the outputs empty; observers are
+ * called in the thread that called Update.
  *
  * Source: A. Balazs, M. Guthe, R. Klein, "Efficient trimmed NURBS tessellation", Journal of WSCG 12
  * (2004). What is done differently and why is told in Documentation/Papers/balazs-2004.md.
@@ -89,8 +93,9 @@ public:
   ///@{
   /**
    * Largest distance in PIXELS mode, as it appears in the view of Camera with ViewportSize. Each
-   * face has a tolerance of its own, by the depth of the nearest corner of its box; an edge has the
-   * smallest of its faces'. Default 0.5; at least 1e-3.
+   * face has a tolerance of its own, by the depth of the nearest corner of its box, at least that of
+   * the near plane; a face behind that plane has the one of its distance from the eye. An edge has
+   * the smallest of its faces'. Default 0.5; at least 1e-3.
    */
   vtkSetClampMacro(PixelTolerance, double, 1e-3, VTK_DOUBLE_MAX);
   vtkGetMacro(PixelTolerance, double);
@@ -243,11 +248,13 @@ public:
 
   ///@{
   /**
-   * What the last Update made of all models together: triangles; the largest certified error and
-   * the tolerance (the smallest one of PIXELS mode) in the unit of the points; faces by status;
-   * seconds of the tessellation and of filling the outputs.
+   * What the last Update made of all models together: triangles and their points; the largest
+   * certified error and the tolerance (the largest of the faces' in PIXELS mode) in the unit of the
+   * points; faces by status; seconds of the tessellation and of filling the outputs. All are 0
+   * before the first Update and after an error.
    */
   vtkGetMacro(NumberOfTriangles, vtkIdType);
+  vtkGetMacro(NumberOfPoints, vtkIdType);
   vtkGetMacro(CertifiedError, double);
   vtkGetMacro(ToleranceUsed, double);
   vtkGetMacro(NumberOfFaces, vtkIdType);
@@ -303,6 +310,7 @@ private:
   bool MergePoints = false;
 
   vtkIdType NumberOfTriangles = 0;
+  vtkIdType NumberOfPoints = 0;
   double CertifiedError = 0.0;
   double ToleranceUsed = 0.0;
   vtkIdType NumberOfFaces = 0;
