@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges
+from vtkmodules.vtkImagingCore import vtkImageDifference
 from vtkmodules.vtkIOGeometry import vtkGLTFReader, vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -325,6 +326,16 @@ class Render(Folder):
         self.assertLess(spread, 0.97)
         self.assertEqual(pixels[0][3], 0)
 
+    def test_looks_as_it_did(self):
+        image = self.picture("--size", "320x240", "--tolerance", "1e-4")
+        baseline = read(vtkPNGReader(), BASELINES / "CommandLineScrew.png")
+        difference = vtkImageDifference()
+        difference.SetInputData(image)
+        difference.SetImageData(baseline)
+        difference.SetThreshold(16)
+        difference.Update()
+        self.assertLess(difference.GetThresholdedError(), 50)
+
     def test_views_differ(self):
         seen = set()
         for view in ("iso", "front", "top", "right", "0.3,-1,0.2"):
@@ -438,7 +449,9 @@ class BadInput(Folder):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("tool", type=Path)
-    parser.add_argument("guide", type=Path)
+    parser.add_argument("source", type=Path)
     known, rest = parser.parse_known_args()
-    TOOL, GUIDE = str(known.tool.resolve()), known.guide
+    TOOL = str(known.tool.resolve())
+    GUIDE = known.source / "Documentation/Guide/CommandLine.md"
+    BASELINES = known.source / "Data/Baselines"
     unittest.main(argv=sys.argv[:1] + rest)
