@@ -209,6 +209,22 @@ void ListFailures(const Arguments& a, const ReferenceShape& shape,
   }
 }
 
+void ListOpenEdges(const Arguments& a, const OpenEdgeReport& open)
+{
+  const std::size_t most = std::min(open.Faces.size(), std::size_t(std::max(0, a.Listed)));
+  for (std::size_t i = 0; i < most; ++i)
+  {
+    std::printf("%s%d%s", i == 0 ? "  open edges or cracks on faces " : " ", open.Faces[i],
+      i + 1 == most ? "\n" : "");
+  }
+  for (std::size_t i = 0; i < std::min(most, open.Examples.size()); ++i)
+  {
+    const auto& [face, ends] = open.Examples[i];
+    std::printf("    face %d: %.17g %.17g %.17g to %.17g %.17g %.17g\n", face, ends[0][0],
+      ends[0][1], ends[0][2], ends[1][0], ends[1][1], ends[1][2]);
+  }
+}
+
 int Run(const Arguments& a)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -258,11 +274,7 @@ int Run(const Arguments& a)
   if (!good)
   {
     ListFailures(a, shape, meshes, reports, gaps, tolerance);
-    for (std::size_t i = 0; i < open.Faces.size() && i < std::size_t(std::max(0, a.Listed)); ++i)
-    {
-      std::printf("%s%d%s", i == 0 ? "  open edges or cracks on faces " : " ", open.Faces[i],
-        i + 1 == std::min(open.Faces.size(), std::size_t(std::max(0, a.Listed))) ? "\n" : "");
-    }
+    ListOpenEdges(a, open);
   }
   if (!a.Report.empty())
   {

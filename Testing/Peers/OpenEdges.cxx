@@ -148,6 +148,10 @@ OpenEdgeReport FindOpenEdges(
       if (body.Closed || crack)
       {
         faces.insert(use.Face);
+        if (report.Examples.size() < 8)
+        {
+          report.Examples.push_back({ use.Face, { use.A, use.B } });
+        }
       }
     }
   }

@@ -16,6 +16,8 @@ struct OpenEdgeReport
   long Misdirected = 0;   ///< Of the others, those not used equally often in both directions.
   long Cracks = 0;        ///< In open bodies: mesh edges used once, far from every free edge.
   std::vector<int> Faces; ///< Where the open edges are.
+  /// Ends of the first few of them, and the face that has them.
+  std::vector<std::pair<int, std::array<Vec3, 2>>> Examples;
 };
 
 /// Points are the same if all bits of their coordinates are (0 and -0 are one). A vertex in the middle
