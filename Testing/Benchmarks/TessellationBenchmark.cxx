@@ -36,7 +36,7 @@ struct Arguments
   std::vector<std::string> Methods{ "kd-tree" }, Errors{ "guaranteed" };
   std::vector<int> Threads{ 1 };
   int Repeat = 3;
-  bool NoSimplify = false;
+  bool NoSimplify = false, NoBalance = false;
 };
 
 double Now()
@@ -82,9 +82,10 @@ void Declare(CLI::App& app, Arguments& a)
     ->check(CLI::IsMember({ "guaranteed", "estimated" }));
   app.add_option("--curve-subdivision", a.Subdivision, "midpoint or arbitrary")
     ->check(CLI::IsMember({ "midpoint", "arbitrary" }));
-  app.add_option("--curve-error", a.Measure, "point or line")
+  app.add_option("--curve-measure", a.Measure, "point or line")
     ->check(CLI::IsMember({ "point", "line" }));
   app.add_flag("--no-simplify", a.NoSimplify, "Keep every vertex of the trimming polylines");
+  app.add_flag("--no-balance", a.NoBalance, "Subdivide trim curves as in the paper");
   app.add_option("--threads", a.Threads, "Numbers of threads")->capture_default_str();
   app.add_option("--repeat", a.Repeat, "Runs of which the median counts")->capture_default_str();
   app.add_option("--output", a.Output, "Write the last mesh to this .vtp file");
@@ -140,6 +141,7 @@ void SetCurveOptions(vtkNURBSTessellator* tessellator, const Arguments& a)
   tessellator->SetCurveBalancing(
     a.Subdivision == "default" && a.Measure == "default" && !a.NoSimplify);
   tessellator->SetCurveSimplification(!a.NoSimplify);
+  tessellator->SetCurveBalancing(!a.NoBalance);
 }
 
 void SetMethod(
@@ -223,7 +225,10 @@ nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat
   return { { "threads", threads }, { "seconds", seconds },
     { "triangles", mesh->GetNumberOfPolys() }, { "points", mesh->GetNumberOfPoints() },
     { "edges", Segments(lines) }, { "certified", tessellator->GetCertifiedError() },
-    { "digest", Digest(mesh) } };
+    { "repaired", tessellator->GetNumberOfRepairedFaces() },
+    { "capped", tessellator->GetNumberOfCappedFaces() },
+    { "failed", tessellator->GetNumberOfFailedFaces() },
+    { "kernel_seconds", tessellator->GetTessellateSeconds() }, { "digest", Digest(mesh) } };
 }
 
 nlohmann::json Run(const Arguments& a)

@@ -13,8 +13,10 @@ PUBLIC = ("bowden", "car_wheel", "d150", "impeller", "linkrods", "nist", "odrive
           "Top.brep", "Motor-c")  # fmt: skip
 CARS = (["--shape", "car:8036"], ["--shape", "car:31040"])
 OLD = ["--method", "quadtree", "--error", "guaranteed", "--curve-subdivision", "midpoint",
-       "--curve-error", "point", "--no-simplify"]  # fmt: skip
-NEW = ["--method", "kd-tree", "--error", "estimated", "--curve-error", "line"]
+       "--curve-measure", "point", "--no-simplify", "--no-balance"]  # fmt: skip
+NEW = ["--method", "kd-tree", "--error", "estimated", "--curve-subdivision", "midpoint",
+       "--curve-measure", "line", "--no-balance"]  # fmt: skip
+OURS = ["--method", "kd-tree", "--error", "estimated"]
 
 
 def run(what, limit, *options):
@@ -46,17 +48,22 @@ def sums(label, inputs, limit, report, *options):
     return total, each
 
 
+def curve_row(label, inputs, limit, report, options):
+    total, each = sums(label, inputs, limit, report, *options)
+    row = [label, total.get("edges"), total.get("seconds"), total.get("triangles")]
+    return row + [m and m["edges"] for m in each]
+
+
 def curves(report, inputs, limit):
     report.text("## Table 2: edges of the trimming polylines by curve method")
     rows = []
     for subdivision in ("midpoint", "arbitrary"):
         for measure, simplify in (("point", False), ("line", False), ("line", True)):
             label = f"{subdivision}, {measure}" + (" + simplification" if simplify else "")
-            options = ["--curve-subdivision", subdivision, "--curve-error", measure]
-            options += [] if simplify else ["--no-simplify"]
-            total, each = sums(label, inputs, limit, report, *options)
-            rows.append([label, total.get("edges"), total.get("seconds"), total.get("triangles")]
-                        + [m and m["edges"] for m in each])  # fmt: skip
+            options = ["--curve-subdivision", subdivision, "--curve-measure", measure]
+            options += ["--no-balance"] + ([] if simplify else ["--no-simplify"])
+            rows.append(curve_row(label, inputs, limit, report, options))
+    rows.append(curve_row("ours, balanced", inputs, limit, report, []))
     report.table(["method", "edges", "total s", "triangles"] + [name_of(w) for w in inputs], rows)
     report.text(
         "Paper (Golf): midpoint 178,475, 170,484 and 151,234 edges; arbitrary 181,280, 172,925 and "
@@ -87,22 +94,22 @@ def surfaces(report, inputs, limit):
 
 
 def whole(report, inputs, limit):
-    report.text("## Table 4: the quadtree method against the whole new method")
+    report.text("## Table 4: the quadtree method, the paper's new method, and ours (balanced curves)")
     rows = []
     for what in inputs:
-        old, new = run(what, limit, *OLD), run(what, limit, *NEW)
-        if "error" in old or "error" in new:
-            report.text(f"- {name_of(what)}: {old.get('error', '')} {new.get('error', '')}")
+        done = [run(what, limit, *options) for options in (OLD, NEW, OURS)]
+        problems = [d["error"] for d in done if "error" in d]
+        if problems:
+            report.text(f"- {name_of(what)}: {'; '.join(problems)}")
             continue
-        a, b = old["meshes"][0], new["meshes"][0]
-        rows.append([
-            name_of(what), old["faces"], a["seconds"], b["seconds"], a["seconds"] / b["seconds"],
-            a["triangles"], b["triangles"], a["triangles"] / b["triangles"], a["edges"],
-            b["edges"], a["edges"] / b["edges"],
-        ])  # fmt: skip
+        row = [name_of(what), done[0]["faces"]]
+        for key in ("seconds", "triangles", "edges"):
+            old, new, ours = (d["meshes"][0][key] for d in done)
+            row += [old, new, ours, old / new if new else None]
+        rows.append(row)
     report.table(
-        ["model", "faces", "old s", "new s", "times", "old triangles", "new", "times", "old edges",
-         "new", "times"],
+        ["model", "faces", "quadtree s", "new s", "ours s", "old/new", "quadtree triangles", "new",
+         "ours", "old/new", "quadtree edges", "new", "ours", "old/new"],
         rows,
     )  # fmt: skip
     report.text(
