@@ -37,7 +37,8 @@ public:
   /// std::out_of_range if there is no such cell.
   const std::string& GetFaceError(vtkIdType cell) const;
 
-  /// All errors and warnings.
+  /// All errors and warnings: of arrays, edges, faces and their loops.
+  /// Empty for a sound model.
   const std::vector<nurbs::ModelProblem>& GetProblems() const;
 
   /// A problem as one line: "error: cell 3 (FaceId 17): knots in u decrease ...".
