@@ -218,6 +218,29 @@ Vec3 ApproachedNormal(const SurfaceView& surface, const Vec2& at, const Vec2& wa
   return limit;
 }
 
+/// The way from a singular point at (u, v) into the domain. If the iso-curve of one direction has
+/// shrunk to a point there, straight across it: each of its parameters has a normal of its own.
+Vec2 WayIntoDomain(const Interval (&domain)[2], const Vec2& at, const SurfaceDerivatives& d,
+  double scaleU, double scaleV)
+{
+  Vec2 way(0.5 * (domain[0].Min + domain[0].Max), 0.5 * (domain[1].Min + domain[1].Max));
+  way -= at;
+  if (way.isZero(0.0))
+  {
+    way = Vec2(domain[0].Length(), domain[1].Length()) * 0.25;
+  }
+  const auto vanishes = [](const Vec3& first, const Vec3& second, double scale, double length) {
+    return first.norm() + second.norm() * length <= 10.0 * Vanishing * scale;
+  };
+  const bool pointU = vanishes(d.Su, d.Suu, scaleU, domain[0].Length());
+  const bool pointV = vanishes(d.Sv, d.Svv, scaleV, domain[1].Length());
+  if (pointU != pointV && way[pointU ? 1 : 0] != 0.0)
+  {
+    way[pointU ? 0 : 1] = 0.0;
+  }
+  return way;
+}
+
 } // namespace
 
 Vec3 Normal(const SurfaceView& surface, double u, double v)
@@ -232,11 +255,7 @@ Vec3 Normal(const SurfaceView& surface, double u, double v)
   }
   // Su x Sv grows from zero along the way into the domain; its derivative gives the direction.
   const Interval domain[2] = { surface.Domain(0), surface.Domain(1) };
-  Vec2 way(0.5 * (domain[0].Min + domain[0].Max) - u, 0.5 * (domain[1].Min + domain[1].Max) - v);
-  if (way.isZero(0.0))
-  {
-    way = Vec2(domain[0].Length(), domain[1].Length()) * 0.25;
-  }
+  const Vec2 way = WayIntoDomain(domain, Vec2(u, v), d, scaleU, scaleV);
   const Vec3 growth = CrossDerivative(d, way[0], way[1]);
   const double natural = scaleU * scaleV *
     (std::abs(way[0]) / domain[0].Length() + std::abs(way[1]) / domain[1].Length());

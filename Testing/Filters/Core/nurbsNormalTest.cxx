@@ -149,6 +149,20 @@ TEST(Normal, WhereTheCrossProductVanishesToSecondOrder)
   }
 }
 
+TEST(Normal, WhereItTurnsLinearlyOnTheWayToAHigherOrderPole)
+{
+  // Profile x = v^2, z = v^2 + v^3: the cross product vanishes to third order, and the slope dz / dx
+  // is 1 + 1.5 v.
+  const Surface spike = reference::Revolve(3, { 0, 0, 0, 0, 1, 1, 1, 1 },
+    { { 0, 0 }, { 0, 0 }, { 1.0 / 3.0, 1.0 / 3.0 }, { 1, 2 } }, { 1, 1, 1, 1 });
+  for (int i = 0; i <= 8; ++i)
+  {
+    const Vec3 rim = Evaluate(spike.View(), i / 8.0, 1.0);
+    const Vec3 expected = Vec3(rim[0], rim[1], -1.0).normalized();
+    EXPECT_LT((BothNormals(spike.View(), i / 8.0, 0.0) - expected).norm(), 1e-6) << i;
+  }
+}
+
 TEST(Normal, OfALineOrPointIsZero)
 {
   Surface collapsed;

@@ -170,9 +170,36 @@ TEST(SurfaceRefinement, SplitNextToAKnotIsSplitAtIt)
   Surface surface = random.Surface(3, 3, true, true, false, 0);
   surface = RefineKnots(surface.View(), 0, { surface.View().Domain(0).Min + 0.125 });
   const double knot = surface.Knots[0][4];
-  const auto halves = Split(surface.View(), 0, knot * (1.0 + 1e-16) + 1e-17);
-  EXPECT_EQ(halves.first.Count[0], 4);
-  EXPECT_EQ(halves.second.Count[0], 4);
+  for (double t : { std::nextafter(knot, -10.0), knot, std::nextafter(knot, 10.0) })
+  {
+    const auto halves = Split(surface.View(), 0, t);
+    EXPECT_EQ(halves.first.Count[0], 4);
+    EXPECT_EQ(halves.second.Count[0], 4);
+    EXPECT_EQ(halves.first.View().Domain(0).Max, t);
+    EXPECT_LT(reference::LargestDistance(surface.View(), halves.second.View(), random), 1e-12);
+  }
+}
+
+TEST(SurfaceRefinement, ReductionStaysWithinItsToleranceWhateverTheWeights)
+{
+  reference::Random random(59);
+  int reductions = 0;
+  for (int trial = 0; trial < 400; ++trial)
+  {
+    Surface surface = random.Surface(2, 1, true, true, false, 0);
+    for (std::size_t k = 0; k < surface.Points.size(); ++k)
+    {
+      // Nearly a straight strip; its weights alone bend the parameter.
+      surface.Points[k] = Vec3(k % 3, k / 3, 0.0);
+      surface.Weights[k] = random.Uniform(0.9, 1.1);
+    }
+    const double tolerance = random.Uniform(0.01, 0.1);
+    const Surface reduced = ReduceDegree(surface.View(), 0, tolerance);
+    reductions += reduced.Degree[0] < 2 ? 1 : 0;
+    EXPECT_LE(reference::LargestDistance(surface.View(), reduced.View(), random, 30), tolerance);
+  }
+  EXPECT_GT(reductions, 50);
+  EXPECT_LT(reductions, 350);
 }
 
 TEST(SurfaceRefinement, BezierPatchesCoverTheSurface)
