@@ -128,10 +128,31 @@ double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
       }
       facet.SetFourthCorner(this->At[6 - f[0] - f[1] - f[2]].X, this->MaxWeight);
       facet.Add(range, box);
-      height = std::max(height, facet.Height());
-      slide = std::max(slide, facet.Sliding());
-      error = std::max(
-        error, SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(facet.Normal())));
+      double h = facet.Height();
+      double d = facet.Deviation();
+      const double slope = this->Slope(facet.Normal());
+      if (h <= this->Goal.Tolerance && SurfaceDistance(h, d, slope) > this->Goal.Tolerance)
+      {
+        facet.AddEdges(range, box);
+        d = facet.Sliding();
+      }
+      if (!patch && h > this->Goal.Tolerance)
+      {
+        const Vec3 corners[4] = { this->At[0].X, this->At[1].X, this->At[2].X, this->At[3].X };
+        double values[4] = { 0.0, 0.0, 0.0, 0.0 };
+        const int fourth = 6 - f[0] - f[1] - f[2];
+        const double twist = facet.Normal().dot(corners[fourth] - corners[f[0]]);
+        values[fourth] = this->MaxWeight * twist;
+        const double share = 0.25 * std::abs(values[fourth]);
+        const double goal = this->Goal.Tolerance * range.MinWeight - share;
+        const SurfaceBound::Roughness rough =
+          this->Bound.BoundRoughness(box, facet.Normal(), corners[f[0]], corners, values, goal);
+        h = std::min(h, (rough.Height + share) / range.MinWeight);
+        d = std::min(d, rough.Deviation);
+      }
+      height = std::max(height, h);
+      slide = std::max(slide, d);
+      error = std::max(error, SurfaceDistance(h, d, slope));
     }
     if (error < worst)
     {

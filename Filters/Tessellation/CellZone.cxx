@@ -134,22 +134,41 @@ void CellZone::MeasureScale(const std::vector<std::pair<int, int>>& cut)
   }
 }
 
+void CellZone::SortVertices()
+{
+  struct Item
+  {
+    LineCode First, Second;
+    int Vertex;
+    bool operator<(const Item& o) const
+    {
+      return this->First != o.First ? this->First < o.First : this->Second < o.Second;
+    }
+  };
+  const int n = int(this->Keys.size());
+  std::vector<Item> items(n);
+  const auto sort = [&](bool byU, std::vector<int>& by, std::vector<int>& at) {
+    for (int k = 0; k < n; ++k)
+    {
+      const Key& key = this->Keys[k];
+      items[k] = byU ? Item{ key.U, key.V, k } : Item{ key.V, key.U, k };
+    }
+    std::sort(items.begin(), items.end());
+    by.resize(n);
+    at.resize(n);
+    for (int k = 0; k < n; ++k)
+    {
+      by[k] = items[k].Vertex;
+      at[items[k].Vertex] = k;
+    }
+  };
+  sort(true, this->ByUV, this->AtUV);
+  sort(false, this->ByVU, this->AtVU);
+}
+
 void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good)
 {
-  const int n = int(this->Keys.size());
-  this->ByUV.resize(n);
-  for (int k = 0; k < n; ++k)
-  {
-    this->ByUV[k] = k;
-  }
-  this->ByVU = this->ByUV;
-  const std::vector<Key>& keys = this->Keys;
-  std::sort(this->ByUV.begin(), this->ByUV.end(), [&](int a, int b) {
-    return keys[a].U != keys[b].U ? keys[a].U < keys[b].U : keys[a].V < keys[b].V;
-  });
-  std::sort(this->ByVU.begin(), this->ByVU.end(), [&](int a, int b) {
-    return keys[a].V != keys[b].V ? keys[a].V < keys[b].V : keys[a].U < keys[b].U;
-  });
+  this->SortVertices();
   std::vector<std::pair<int, int>> directed;
   std::vector<int> polygon;
   std::vector<int> lower;
@@ -194,19 +213,43 @@ void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good
       }
     }
   }
-  // Sides without a partner face the border zone.
-  const auto key = [](const std::pair<int, int>& s) { return std::minmax(s.first, s.second); };
-  std::sort(directed.begin(), directed.end(),
-    [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  for (std::size_t k = 0; k < directed.size();)
+  this->FindOpenSides(directed);
+}
+
+// Sides without a partner face the border zone.
+void CellZone::FindOpenSides(const std::vector<std::pair<int, int>>& directed)
+{
+  // By the lower vertex, each side's other vertex; a side that comes twice is inside.
+  const auto low = [](const std::pair<int, int>& s) { return std::min(s.first, s.second); };
+  const auto high = [](const std::pair<int, int>& s) { return std::max(s.first, s.second); };
+  std::vector<int> start(this->Vertices.size() + 2, 0);
+  for (const auto& side : directed)
   {
-    if (k + 1 < directed.size() && key(directed[k]) == key(directed[k + 1]))
+    ++start[low(side) + 2];
+  }
+  for (std::size_t k = 2; k < start.size(); ++k)
+  {
+    start[k] += start[k - 1];
+  }
+  std::vector<int> item(directed.size());
+  for (std::size_t k = 0; k < directed.size(); ++k)
+  {
+    item[start[low(directed[k]) + 1]++] = int(k);
+  }
+  for (std::size_t v = 0; v + 1 < start.size(); ++v)
+  {
+    for (int a = start[v]; a < start[v + 1]; ++a)
     {
-      k += 2;
-      continue;
+      bool alone = true;
+      for (int b = start[v]; b < start[v + 1] && alone; ++b)
+      {
+        alone = a == b || high(directed[item[a]]) != high(directed[item[b]]);
+      }
+      if (alone)
+      {
+        this->Sides.emplace_back(directed[item[a]].second, directed[item[a]].first);
+      }
     }
-    this->Sides.emplace_back(directed[k].second, directed[k].first);
-    ++k;
   }
 }
 
@@ -216,30 +259,40 @@ void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vec
   std::vector<int>& upper) const
 {
   const std::vector<Key>& keys = this->Keys;
-  const auto row = [&](LineCode v, std::vector<int>& out) {
-    auto at = std::lower_bound(this->ByVU.begin(), this->ByVU.end(), Key{ leaf.U0, v },
-      [&](int a, const Key& k) { return keys[a].V != k.V ? keys[a].V < k.V : keys[a].U < k.U; });
-    for (; at != this->ByVU.end() && keys[*at].V == v && keys[*at].U <= leaf.U1; ++at)
+  const auto corner = [&](LineCode u, LineCode v) { return this->Index.find({ u, v })->second; };
+  const auto row = [&](int first, LineCode v, std::vector<int>& out) {
+    for (std::size_t k = this->AtVU[first]; k < this->ByVU.size(); ++k)
     {
-      out.push_back(*at);
+      const int vertex = this->ByVU[k];
+      if (keys[vertex].V != v || keys[vertex].U > leaf.U1)
+      {
+        break;
+      }
+      out.push_back(vertex);
     }
   };
-  const auto column = [&](LineCode u, std::vector<int>& out) {
-    auto at = std::lower_bound(this->ByUV.begin(), this->ByUV.end(), Key{ u, leaf.V0 },
-      [&](int a, const Key& k) { return keys[a].U != k.U ? keys[a].U < k.U : keys[a].V < k.V; });
-    for (; at != this->ByUV.end() && keys[*at].U == u && keys[*at].V <= leaf.V1; ++at)
+  const auto column = [&](int first, LineCode u, std::vector<int>& out) {
+    for (std::size_t k = this->AtUV[first]; k < this->ByUV.size(); ++k)
     {
-      out.push_back(*at);
+      const int vertex = this->ByUV[k];
+      if (keys[vertex].U != u || keys[vertex].V > leaf.V1)
+      {
+        break;
+      }
+      out.push_back(vertex);
     }
   };
+  const int low = corner(leaf.U0, leaf.V0);
   lower.clear();
   upper.clear();
-  row(leaf.V0, lower);
+  row(low, leaf.V0, lower);
+  const int right = lower.back();
   lower.pop_back();
-  column(leaf.U1, lower);
-  column(leaf.U0, upper);
+  column(right, leaf.U1, lower);
+  column(low, leaf.U0, upper);
+  const int left = upper.back();
   upper.pop_back();
-  row(leaf.V1, upper);
+  row(left, leaf.V1, upper);
   polygon.assign(lower.begin(), lower.end());
   for (std::size_t k = upper.size() - 1; k-- > 1;)
   {

@@ -5,6 +5,7 @@
 
 #include "TrimRegion.h"
 
+#include <functional>
 #include <unordered_map>
 
 namespace nurbs
@@ -55,6 +56,8 @@ private:
   int Vertex(LineCode u, LineCode v);
   void KeepCutCorners(const TrimRegion& region, const std::vector<std::pair<int, int>>& cut);
   void MeasureScale(const std::vector<std::pair<int, int>>& cut);
+  void SortVertices();
+  void FindOpenSides(const std::vector<std::pair<int, int>>& directed);
   void Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
     std::vector<int>& upper) const;
   void Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper);
@@ -67,7 +70,8 @@ private:
   std::vector<int> Free;
   std::vector<Triangle> Result;
   std::vector<std::pair<int, int>> Sides;
-  std::vector<int> ByUV, ByVU; ///< Vertices sorted by (u, v) and by (v, u).
+  std::vector<int> ByUV, ByVU; ///< Vertices sorted by (u, v) and by (v, u),
+  std::vector<int> AtUV, AtVU; ///< and where each vertex is in them.
   Vec2 Factor = Vec2(1.0, 1.0);
 };
 

@@ -610,10 +610,10 @@ private:
       {
         continue;
       }
-      const FacetBound facet = this->Facet(t.data(), NoLeaf);
+      FacetBound facet = this->Facet(t.data(), NoLeaf);
       const bool folded = facet.HasPlane() && this->IsFolded(t.data(), facet.Normal());
       if ((folded && this->SplitSegments(t.data())) ||
-        (!folded && this->FacetError(t.data(), facet) <= this->Limit()))
+        (!folded && this->FacetError(t.data(), NoLeaf, facet) <= this->Limit()))
       {
         continue;
       }
@@ -747,11 +747,27 @@ private:
     return slope;
   }
 
+  // Calls use(range, box) for the leaves that a triangle touches.
+  template <typename F>
+  void ForLeaves(const int* t, int leaf, F&& use) const
+  {
+    const std::vector<TreeLeaf>& leaves = this->Job.Tree->Leaves();
+    if (leaf != NoLeaf)
+    {
+      use(leaves[-1 - leaf].Range, leaves[-1 - leaf].Box);
+      return;
+    }
+    const ParameterBox box = this->BoxOf(t);
+    const double a = 1e-7 * box.A();
+    const double b = 1e-7 * box.B();
+    this->Job.Tree->Query({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b },
+      [&](int k) { use(leaves[k].Range, leaves[k].Box); });
+  }
+
   FacetBound Facet(const int* t, int leaf) const
   {
     FacetBound facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]],
       this->Mesh.UV[t[0]], this->Mesh.UV[t[1]], this->Mesh.UV[t[2]]);
-    const std::vector<TreeLeaf>& leaves = this->Job.Tree->Leaves();
     for (int i = 0; i < 3; ++i)
     {
       if (this->IsPole(t[i]))
@@ -759,11 +775,110 @@ private:
         facet.SetPole(i);
       }
     }
-    if (leaf != NoLeaf)
+    this->ForLeaves(t, leaf,
+      [&](const CurvatureRange& range, const ParameterBox& box) { facet.Add(range, box); });
+    return facet;
+  }
+
+  double FacetError(const int* t, int leaf, FacetBound& facet) const
+  {
+    if (!facet.HasPlane())
     {
-      facet.Add(leaves[-1 - leaf].Range, leaves[-1 - leaf].Box);
-      return facet;
+      return facet.Deviation();
     }
+    // From the cheapest bound to the dearest.
+    const double slope = this->Slope(t, facet.Normal());
+    double error =
+      std::min(facet.Deviation(), SurfaceDistance(facet.Height(), facet.Deviation(), slope));
+    if (error <= this->Limit())
+    {
+      return error;
+    }
+    this->ForLeaves(t, leaf,
+      [&](const CurvatureRange& range, const ParameterBox& box) { facet.AddEdges(range, box); });
+    error = std::min(error, SurfaceDistance(facet.Height(), facet.Sliding(), slope));
+    if (error <= this->Limit())
+    {
+      return error;
+    }
+    return std::min(
+      { error, facet.SegmentDeviation(), this->EdgeSliverError(t, facet), this->CloseError(t) });
+  }
+
+  // The bound from coefficients over the triangle's own parameter box: dearer and tighter than what
+  // the tree's leaves know.
+  double CloseError(const int* t) const
+  {
+    const SurfaceBound& bound = *this->Job.Bound;
+    const Vec3* X = this->Mesh.Points.data();
+    const Vec2* uv = this->Mesh.UV.data();
+    FacetBound facet(X[t[0]], X[t[1]], X[t[2]], uv[t[0]], uv[t[1]], uv[t[2]]);
+    const ParameterBox box = this->BoxOf(t);
+    if (!facet.HasPlane() || !(box.A() > 0.0) || !(box.B() > 0.0) || this->CrossesCrease(box))
+    {
+      return 1e300;
+    }
+    BezierPatch patch;
+    const bool single = bound.InOneSpan(box);
+    if (single)
+    {
+      bound.Extract(box, patch);
+    }
+    SurfaceBound::Coefficients coefficients;
+    bound.Evaluate(box, single ? &patch : nullptr, X[t[0]], coefficients);
+    const CurvatureRange range =
+      SurfaceBound::Range(coefficients, facet.Normal(), X[t[1]] - X[t[0]]);
+    facet.Add(range, box);
+    facet.AddEdges(range, box);
+    double height = facet.Height();
+    double sliding = facet.Sliding();
+    if (!single)
+    {
+      // Against the plane itself, and the affine map that the triangle is.
+      const Vec2 e1 = uv[t[1]] - uv[t[0]];
+      const Vec2 e2 = uv[t[2]] - uv[t[0]];
+      const double det = e1[0] * e2[1] - e1[1] * e2[0];
+      const auto map = [&](double u, double v) -> Vec3 {
+        const Vec2 d = Vec2(u, v) - uv[t[0]];
+        const double b1 = (d[0] * e2[1] - d[1] * e2[0]) / det;
+        const double b2 = (e1[0] * d[1] - e1[1] * d[0]) / det;
+        return X[t[0]] + b1 * (X[t[1]] - X[t[0]]) + b2 * (X[t[2]] - X[t[0]]);
+      };
+      if (det == 0.0)
+      {
+        return 1e300;
+      }
+      const Vec3 corners[4] = { map(box.U0, box.V0), map(box.U1, box.V0), map(box.U0, box.V1),
+        map(box.U1, box.V1) };
+      const double zero[4] = { 0.0, 0.0, 0.0, 0.0 };
+      const SurfaceBound::Roughness rough =
+        bound.BoundRoughness(box, facet.Normal(), X[t[0]], corners, zero, 1e300);
+      height = std::min(height, rough.Height / range.MinWeight);
+      sliding = std::min(sliding, rough.Deviation);
+    }
+    return SurfaceDistance(height, sliding, this->Slope(t, facet.Normal()));
+  }
+
+  bool CrossesCrease(const ParameterBox& box) const
+  {
+    const double low[2] = { box.U0, box.V0 };
+    const double high[2] = { box.U1, box.V1 };
+    for (int d = 0; d < 2; ++d)
+    {
+      const double eps = NegligibleSpan * (high[d] - low[d]);
+      for (double crease : this->Job.Tree->Creases(d))
+      {
+        if (crease > low[d] + eps && crease < high[d] - eps)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  ParameterBox BoxOf(const int* t) const
+  {
     ParameterBox box{ 1e300, -1e300, 1e300, -1e300 };
     for (int i = 0; i < 3; ++i)
     {
@@ -771,24 +886,7 @@ private:
       box = { std::min(box.U0, p[0]), std::max(box.U1, p[0]), std::min(box.V0, p[1]),
         std::max(box.V1, p[1]) };
     }
-    const double a = 1e-7 * box.A();
-    const double b = 1e-7 * box.B();
-    this->Job.Tree->Query({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b },
-      [&](int k) { facet.Add(leaves[k].Range, leaves[k].Box); });
-    return facet;
-  }
-
-  double FacetError(const int* t, const FacetBound& facet) const
-  {
-    if (!facet.HasPlane())
-    {
-      return facet.Deviation();
-    }
-    const double error = std::min(facet.Deviation(),
-      SurfaceDistance(facet.Height(), facet.Sliding(), this->Slope(t, facet.Normal())));
-    return error <= this->Limit()
-      ? error
-      : std::min({ error, facet.SegmentDeviation(), this->EdgeSliverError(t, facet) });
+    return box;
   }
 
   // A sliver whose longest edge, or whose other two edges, are boundary segments: its points are an
@@ -817,7 +915,8 @@ private:
     }
     if (leaf < 0)
     {
-      return this->FacetError(t, this->Facet(t, leaf));
+      FacetBound facet = this->Facet(t, leaf);
+      return this->FacetError(t, leaf, facet);
     }
     const TreeLeaf& cell = this->Job.Tree->Leaves()[leaf];
     const Vec3& x0 = this->Mesh.Points[t[0]];

@@ -97,6 +97,22 @@ void FacetBound::Add(const CurvatureRange& range, const ParameterBox& box)
   }
   this->Weight = std::min(this->Weight, range.MinWeight);
   merge(this->HeightOver, BoundDeviation(range, a, b, this->N, this->X[0], this->Mixed).Largest());
+}
+
+void FacetBound::AddEdges(const CurvatureRange& range, const ParameterBox& box)
+{
+  if (!this->Plane)
+  {
+    return;
+  }
+  const double w = box.A();
+  const double h = box.B();
+  const bool sum = w < Narrow * this->A || h < Narrow * this->B;
+  const auto merge = [sum](double& target, double value) {
+    target = sum ? target + value : std::max(target, value);
+  };
+  const double a = Effective(this->A, w);
+  const double b = Effective(this->B, h);
   for (int i = 0; i < 3; ++i)
   {
     merge(this->Along[i],

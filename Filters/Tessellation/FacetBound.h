@@ -47,6 +47,9 @@ public:
   /// b w / 2, added to what the other boxes give.
   void Add(const CurvatureRange& range, const ParameterBox& box);
 
+  /// Adds a box's bounds of the edges' bows; needed before Sliding, SegmentDeviation, EdgeHeight.
+  void AddEdges(const CurvatureRange& range, const ParameterBox& box);
+
   double Height() const { return (this->HeightOver + this->Twist) / this->Weight; }
   /// Bound of |S - L|: sliding in any direction.
   double Deviation() const { return this->Full; }

@@ -45,6 +45,42 @@ double DeviationBound(const CurvatureRange& range, double a, double b)
     (a * a * range.Sliding[0] + 2.0 * a * b * range.Sliding[1] + b * b * range.Sliding[2]);
 }
 
+namespace
+{
+// Rows of blossom coefficients: point i of the Bezier form of [a, b] in span `k` is the blossom at
+// a (p - i times) and b (i times), a combination of the p + 1 control points of the span.
+void BlossomMatrix(KnotView knots, int p, int k, double a, double b, std::vector<double>& m)
+{
+  m.assign(std::size_t(p + 1) * (p + 1), 0.0);
+  std::vector<double> c(std::size_t(p + 1) * (p + 1));
+  for (int row = 0; row <= p; ++row)
+  {
+    std::fill(c.begin(), c.end(), 0.0);
+    for (int i = 0; i <= p; ++i)
+    {
+      c[std::size_t(i) * (p + 1) + i] = 1.0;
+    }
+    for (int r = 1; r <= p; ++r)
+    {
+      const double t = r <= p - row ? a : b;
+      for (int i = p; i >= r; --i)
+      {
+        const double lo = knots[k - p + i];
+        const double hi = knots[k + 1 + i - r];
+        const double s = (t - lo) / (hi - lo);
+        for (int x = 0; x <= p; ++x)
+        {
+          double& target = c[std::size_t(i) * (p + 1) + x];
+          target = (1.0 - s) * c[std::size_t(i - 1) * (p + 1) + x] + s * target;
+        }
+      }
+    }
+    std::copy_n(
+      c.begin() + std::size_t(p) * (p + 1), p + 1, m.begin() + std::size_t(row) * (p + 1));
+  }
+}
+} // namespace
+
 SurfaceBound::SurfaceBound(const SurfaceView& surface)
   : Surface(surface)
   , Prototype(surface)
@@ -85,7 +121,116 @@ SurfaceBound::SurfaceBound(const SurfaceView& surface)
     this->Second[1] = this->Derivative(this->First[0], 1, U[1], p[1], 1);
     this->Second[2] = this->Derivative(this->First[1], 1, U[1], p[1], 2);
     this->HaveNets = true;
+    this->MakeBezierNet();
   }
+}
+
+// Bezier coefficients of all spans: rows first, then columns, by the same blossoms as Extract.
+void SurfaceBound::MakeBezierNet()
+{
+  const int* p = this->Surface.Degree;
+  Net rows;
+  Net* const stage[2] = { &rows, &this->BezierNet };
+  const Net* from = &this->Control;
+  for (int d = 0; d < 2; ++d)
+  {
+    const KnotView& knots = this->Surface.Knots[d];
+    for (const Knot& knot : DistinctKnots(knots, p[d]))
+    {
+      this->Breaks[d].push_back(knot.Value);
+    }
+    const int spans = int(this->Breaks[d].size()) - 1;
+    Net& to = *stage[d];
+    to.Count[d] = spans * p[d] + 1;
+    to.Count[1 - d] = from->Count[1 - d];
+    to.Points.assign(std::size_t(to.Count[0]) * to.Count[1], Vec4::Zero());
+    std::vector<double> m;
+    for (int s = 0; s < spans; ++s)
+    {
+      const double a = this->Breaks[d][s];
+      const double b = this->Breaks[d][s + 1];
+      const int k = FindSpan(knots, p[d], 0.5 * (a + b));
+      BlossomMatrix(knots, p[d], k, a, b, m);
+      for (int line = 0; line < to.Count[1 - d]; ++line)
+      {
+        for (int i = 0; i <= p[d]; ++i)
+        {
+          Vec4 sum = Vec4::Zero();
+          for (int x = 0; x <= p[d]; ++x)
+          {
+            const int at = k - p[d] + x;
+            sum += m[std::size_t(i) * (p[d] + 1) + x] *
+              (d == 0 ? from->At(at, line) : from->At(line, at));
+          }
+          const int out = s * p[d] + i;
+          to.Points[d == 0 ? out + std::size_t(line) * to.Count[0]
+                           : line + std::size_t(out) * to.Count[0]] = sum;
+        }
+      }
+    }
+    from = stage[d];
+  }
+}
+
+SurfaceBound::Roughness SurfaceBound::BoundRoughness(const ParameterBox& box, const Vec3& n,
+  const Vec3& p0, const Vec3 (&corners)[4], const double (&values)[4], double limit) const
+{
+  const int* p = this->Surface.Degree;
+  const double from[2] = { box.U0, box.V0 };
+  const double to[2] = { box.U1, box.V1 };
+  int lo[2];
+  int hi[2];
+  for (int d = 0; d < 2; ++d)
+  {
+    const std::vector<double>& b = this->Breaks[d];
+    const double eps = NegligibleSpan * (to[d] - from[d]);
+    lo[d] = int(std::upper_bound(b.begin(), b.end(), from[d] + eps) - b.begin()) - 1;
+    hi[d] = int(std::lower_bound(b.begin(), b.end(), to[d] - eps) - b.begin());
+    lo[d] = std::max(0, std::min(lo[d], int(b.size()) - 2));
+    hi[d] = std::max(lo[d] + 1, std::min(hi[d], int(b.size()) - 1));
+  }
+  const auto greville = [&](int d, int i) {
+    const int s = std::min(i / p[d], int(this->Breaks[d].size()) - 2);
+    const double t = double(i - s * p[d]) / p[d];
+    return ((1.0 - t) * this->Breaks[d][s] + t * this->Breaks[d][s + 1] - from[d]) /
+      (to[d] - from[d]);
+  };
+  const Vec3 origin = p0 - this->Center;
+  const Vec3 x0 = corners[0] - this->Center;
+  const Vec3 xu = corners[1] - corners[0];
+  const Vec3 xv = corners[2] - corners[0];
+  const Vec3 xuv = corners[3] - corners[1] - corners[2] + corners[0];
+  const double offset = n.dot(origin);
+  const double fu = values[1] - values[0];
+  const double fv = values[2] - values[0];
+  const double fuv = values[3] - values[1] - values[2] + values[0];
+  double height = 0.0;
+  double deviation = 0.0;
+  double wmin = 1e300;
+  // A coarse look first: most boxes that fail do so at once.
+  for (const int stride : { 7, 1 })
+  {
+    for (int j = lo[1] * p[1]; j <= hi[1] * p[1]; j += stride)
+    {
+      const double v = greville(1, j);
+      for (int i = lo[0] * p[0]; i <= hi[0] * p[0]; i += stride)
+      {
+        const double u = greville(0, i);
+        const Vec4& h = this->BezierNet.At(i, j);
+        const double f = n[0] * h[0] + n[1] * h[1] + n[2] * h[2] - h[3] * offset;
+        height = std::max(height, std::abs(f - (values[0] + u * fu + v * fv + u * v * fuv)));
+        const Vec3 x = x0 + u * xu + v * xv + (u * v) * xuv;
+        deviation = std::max(deviation, (h.head<3>() - h[3] * x).squaredNorm());
+        wmin = std::min(wmin, h[3]);
+      }
+      if (height > limit)
+      {
+        return { height, 1e300 };
+      }
+    }
+  }
+  // For a rational surface the product w x is no bilinear function; derivatives bound the sliding.
+  return { height, this->IsRational ? 1e300 : std::sqrt(deviation) / wmin };
 }
 
 // The control net of the derivative of order `order` from that of order - 1: coefficient i belongs
@@ -163,42 +308,6 @@ bool SurfaceBound::InOneSpan(const ParameterBox& box) const
   }
   return true;
 }
-
-namespace
-{
-// Rows of blossom coefficients: point i of the Bezier form of [a, b] in span `k` is the blossom at
-// a (p - i times) and b (i times), a combination of the p + 1 control points of the span.
-void BlossomMatrix(KnotView knots, int p, int k, double a, double b, std::vector<double>& m)
-{
-  m.assign(std::size_t(p + 1) * (p + 1), 0.0);
-  std::vector<double> c(std::size_t(p + 1) * (p + 1));
-  for (int row = 0; row <= p; ++row)
-  {
-    std::fill(c.begin(), c.end(), 0.0);
-    for (int i = 0; i <= p; ++i)
-    {
-      c[std::size_t(i) * (p + 1) + i] = 1.0;
-    }
-    for (int r = 1; r <= p; ++r)
-    {
-      const double t = r <= p - row ? a : b;
-      for (int i = p; i >= r; --i)
-      {
-        const double lo = knots[k - p + i];
-        const double hi = knots[k + 1 + i - r];
-        const double s = (t - lo) / (hi - lo);
-        for (int x = 0; x <= p; ++x)
-        {
-          double& target = c[std::size_t(i) * (p + 1) + x];
-          target = (1.0 - s) * c[std::size_t(i - 1) * (p + 1) + x] + s * target;
-        }
-      }
-    }
-    std::copy_n(
-      c.begin() + std::size_t(p) * (p + 1), p + 1, m.begin() + std::size_t(row) * (p + 1));
-  }
-}
-} // namespace
 
 void SurfaceBound::Extract(const ParameterBox& box, BezierPatch& patch) const
 {

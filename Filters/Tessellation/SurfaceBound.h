@@ -108,6 +108,21 @@ public:
   static CurvatureRange Range(
     const Coefficients& coefficients, const Vec3& normal, const Vec3& along);
 
+  /// Bounds by the Bezier coefficients themselves, for boxes of several spans (of knots that suit
+  /// the box or lie around it): better than derivatives where the surface is rough, as a terrain.
+  /// Linear and bilinear functions have exactly the coefficients of their values at Greville
+  /// abscissae, so |f - B| is at most the largest difference of coefficients.
+  struct Roughness
+  {
+    double Height = 0.0;    ///< |n . (H - w p0) - its bilinear interpolant of the box's corners|.
+    double Deviation = 0.0; ///< |H - w x bilinear interpolant of the corners| / least weight.
+  };
+  /// @param corners S at (U0, V0), (U1, V0), (U0, V1), (U1, V1); @param values of n . (H - w p0) there.
+  /// @param limit stop as soon as Height is over it.
+  Roughness BoundRoughness(const ParameterBox& box, const Vec3& n, const Vec3& p0,
+    const Vec3 (&corners)[4], const double (&values)[4], double limit) const;
+  bool HasManySpans() const { return this->HaveNets; }
+
 private:
   struct Net
   {
@@ -116,6 +131,7 @@ private:
     const Vec4& At(int i, int j) const { return this->Points[i + std::size_t(j) * this->Count[0]]; }
   };
   Net Derivative(const Net& net, int dir, KnotView knots, int degree, int order) const;
+  void MakeBezierNet();
   void FromNets(const ParameterBox& box, const Vec3& origin, Coefficients& out) const;
   static void FromBezier(const ParameterBox& box, const BezierPatch& patch, const Vec3& origin,
     Coefficients& out, bool rational);
@@ -132,6 +148,8 @@ private:
   Net First[2];
   Net Second[3];
   bool HaveNets = false;
+  Net BezierNet;                 ///< All Bezier patches; neighbours share their boundary.
+  std::vector<double> Breaks[2]; ///< Distinct knots.
 };
 
 } // namespace nurbs

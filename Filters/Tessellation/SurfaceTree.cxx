@@ -12,6 +12,8 @@ namespace nurbs
 namespace
 {
 constexpr int FractionBits = 20;
+constexpr double EvenShare = 0.75; // Mean demand over greatest demand from which on lines fit all.
+constexpr std::size_t FewSpans = 16; // Fewer are sampled too thinly to tell.
 constexpr LineCode One = LineCode(1) << FractionBits;
 
 // Segments that a parameter interval wants: the square root of deviation over tolerance for one
@@ -19,7 +21,8 @@ constexpr LineCode One = LineCode(1) << FractionBits;
 struct DemandSamples
 {
   std::vector<double> At;     // Sample boundaries, ascending: cell k is [At[k], At[k+1]].
-  std::vector<double> Wanted; // Segments wanted in cell k.
+  std::vector<double> Wanted; // Segments wanted in cell k, where it wants most.
+  std::vector<double> Mean;   // On average across the other direction.
 };
 
 int SamplesOfSpan(int degree, std::size_t spans)
@@ -57,6 +60,7 @@ DemandSamples MakeCells(const std::vector<double>& breaks, int degree)
   }
   s.At.push_back(breaks.back());
   s.Wanted.assign(s.At.size() - 1, 0.0);
+  s.Mean = s.Wanted;
   return s;
 }
 
@@ -115,6 +119,8 @@ void SampleDemand(const SurfaceBound& bound, double tolerance, DemandSamples& u,
       double& wv = v.Wanted[cell(v, j, vs.size())];
       wu = std::max(wu, wantU[i + j * us.size()]);
       wv = std::max(wv, wantV[i + j * us.size()]);
+      u.Mean[cell(u, i, us.size())] += wantU[i + j * us.size()] / double(vs.size());
+      v.Mean[cell(v, j, vs.size())] += wantV[i + j * us.size()] / double(us.size());
     }
   }
 }
@@ -127,6 +133,20 @@ double Total(const DemandSamples& s)
     total += s.Wanted[k] * (s.At[k + 1] - s.At[k]);
   }
   return total;
+}
+
+// True if the demand is much the same across the surface, so that lines all over it suit it; where
+// it is not, halving spans where needed makes fewer cells.
+bool IsEven(const DemandSamples& s)
+{
+  double most = 0.0;
+  double mean = 0.0;
+  for (std::size_t k = 0; k < s.Wanted.size(); ++k)
+  {
+    most += s.Wanted[k] * (s.At[k + 1] - s.At[k]);
+    mean += s.Mean[k] * (s.At[k + 1] - s.At[k]);
+  }
+  return mean >= EvenShare * most;
 }
 
 // The deviations of both directions add up in a cell: they share the tolerance, half each (which
@@ -147,7 +167,7 @@ void ShareTolerance(DemandSamples& u, DemandSamples& v)
 }
 
 // Lines of one direction: every span boundary, and in each span the quantiles of its demand.
-void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s, double margin,
+void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s, double margin, bool even,
   std::vector<double>& lines, std::vector<double>& demand)
 {
   lines.assign(1, breaks.front());
@@ -162,7 +182,7 @@ void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s, doubl
       total += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
     }
     const double start = demand.back();
-    const int n = std::min(20000, std::max(1, int(std::ceil(margin * total - 0.02))));
+    const int n = even ? std::min(20000, std::max(1, int(std::ceil(margin * total - 0.02)))) : 1;
     double done = 0.0;
     std::size_t i = cell;
     for (int m = 1; m < n; ++m)
@@ -212,11 +232,13 @@ void SurfaceTree::MakeLines(
     DemandSamples v = MakeCells(breaks[1], surface.Degree[1]);
     SampleDemand(bound, goal.Tolerance, u, v, this->Parallel);
     ShareTolerance(u, v);
+    const bool evenU = breaks[0].size() <= FewSpans || IsEven(u);
+    const bool evenV = breaks[1].size() <= FewSpans || IsEven(v);
     double margin = 1.04;
     for (int attempt = 0; attempt < 4; ++attempt)
     {
-      PlaceLines(breaks[0], u, margin, this->Line[0], this->Demand[0]);
-      PlaceLines(breaks[1], v, margin, this->Line[1], this->Demand[1]);
+      PlaceLines(breaks[0], u, margin, evenU, this->Line[0], this->Demand[0]);
+      PlaceLines(breaks[1], v, margin, evenV, this->Line[1], this->Demand[1]);
       const double excess = this->TypicalExcess(bound, goal);
       if (excess <= 1.0 || goal.Error == ErrorMode::Estimated)
       {
