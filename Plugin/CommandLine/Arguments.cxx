@@ -303,7 +303,7 @@ bool Parse(int argc, char** argv, Arguments& arguments, int& exitCode)
   app.footer(Examples);
   CLI::App* info = app.add_subcommand("info", "tell what is in a model");
   AddModel(info, arguments);
-  info->add_flag("--tree", arguments.WholeTree, "print every part, however many there are");
+  info->add_flag("--all", arguments.All, "print every part and problem, however many there are");
   info->group("Commands");
   info->footer("Example:\n  vtknurbs info gear.step --report gear.json");
   info->parse_complete_callback([&arguments] { arguments.What = Command::Info; });

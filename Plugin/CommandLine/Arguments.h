@@ -55,7 +55,7 @@ struct Arguments
   int Threads = 0; ///< 0: as many as there are processors
   bool Quiet = false;
   bool Strict = false;
-  bool WholeTree = false; ///< info: every part, however many
+  bool All = false; ///< info: every part and problem, however many
 
   std::array<int, 2> Size = { 1200, 900 };
   std::array<double, 3> View = { 1.0, -1.0, 1.0 }; ///< from the object to the viewer

@@ -83,6 +83,16 @@ public:
     return model;
   }
 
+  // Problems are for the report only, and would take another look at every face.
+  void Examine(vtkDataObject* model)
+  {
+    Count(model, this->Figures);
+    if (!this->Options.Report.empty())
+    {
+      ListProblems(model, this->Figures);
+    }
+  }
+
   void Warn(const std::vector<std::string>& warnings)
   {
     for (const std::string& warning : warnings)
@@ -132,10 +142,11 @@ int Info(const Arguments& arguments)
   Session session(arguments);
   const auto model = session.Read(false, 1.0);
   Count(model, session.Figures);
+  ListProblems(model, session.Figures);
   const int exitCode = session.Finish();
   if (!arguments.Quiet)
   {
-    Describe(model, session.Figures, arguments.WholeTree, std::cout);
+    Describe(model, session.Figures, arguments.All, std::cout);
   }
   return exitCode;
 }
@@ -185,7 +196,7 @@ int TessellateCommand(const Arguments& arguments)
   CheckMeshPath(arguments.Output);
   Session session(arguments);
   const auto model = session.Read(true, 0.6);
-  Count(model, session.Figures);
+  session.Examine(model);
   Triangles triangles =
     Tessellate(model, arguments, nullptr, session.Phase(0.6, 0.9), session.Figures);
   session.Phase(0.9, 1.0);
@@ -207,7 +218,7 @@ int RenderCommand(const Arguments& arguments)
   CheckWritable(arguments.Output);
   Session session(arguments);
   const auto model = session.Read(true, 0.6);
-  Count(model, session.Figures);
+  session.Examine(model);
   const auto camera = FitCamera(SamplesOf(model), arguments.View, arguments.Size);
   Triangles triangles =
     Tessellate(model, arguments, camera, session.Phase(0.6, 0.9), session.Figures);

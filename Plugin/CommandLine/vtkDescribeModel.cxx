@@ -21,7 +21,9 @@ namespace nurbs
 namespace
 {
 
-constexpr size_t MostSiblings = 12; // printed, unless all are wanted
+// How many are printed, unless all are wanted.
+constexpr size_t MostSiblings = 12;
+constexpr size_t MostProblems = 10;
 
 // Sums over a model's usable faces.
 struct Sums
@@ -159,7 +161,8 @@ void Print(const Branch& branch, int depth, bool whole, std::ostream& out)
   {
     out << "  x " << branch.Times;
   }
-  out << "  (" << Grouped(branch.Faces) << (branch.Faces == 1 ? " face)" : " faces)") << "\n";
+  out << "  (" << Grouped(branch.Faces) << (branch.Faces == 1 ? " face" : " faces")
+      << (branch.Times > 1 ? " each)\n" : ")\n");
   const size_t count = branch.Children.size();
   const size_t shown = whole || count <= MostSiblings ? count : MostSiblings - 1;
   for (size_t i = 0; i < shown; ++i)
@@ -169,7 +172,7 @@ void Print(const Branch& branch, int depth, bool whole, std::ostream& out)
   if (shown < count)
   {
     out << indent << "  ... and " << Grouped(static_cast<std::int64_t>(count - shown))
-        << " more; --tree shows all\n";
+        << " more; --all shows all\n";
   }
 }
 
@@ -187,20 +190,30 @@ void Count(vtkDataObject* model, Report& report)
     {
       report.Unit = vtkNURBSModel::GetLengthUnit(part);
     }
-    for (const ModelProblem& problem : view->GetProblems())
-    {
-      report.Problems.push_back(view->Describe(problem));
-    }
-    for (const std::string& reason : vtkNURBSModel::GetUnconvertedFaces(part))
-    {
-      ++report.Unconverted;
-      report.Problems.push_back("error: face not converted, " + reason);
-    }
+    report.Unconverted +=
+      static_cast<std::int64_t>(vtkNURBSModel::GetUnconvertedFaces(part).size());
   }
 }
 
 //--------------------------------------------------------------------------------------------------
-void Describe(vtkDataObject* model, const Report& report, bool wholeTree, std::ostream& out)
+void ListProblems(vtkDataObject* model, Report& report)
+{
+  for (vtkUnstructuredGrid* part : PartsOf(model))
+  {
+    for (const std::string& reason : vtkNURBSModel::GetUnconvertedFaces(part))
+    {
+      report.Problems.push_back("error: face not converted, " + reason);
+    }
+  }
+  std::istringstream lines(vtkNURBSModel::Validate(model));
+  for (std::string line; std::getline(lines, line);)
+  {
+    report.Problems.push_back(line);
+  }
+}
+
+//--------------------------------------------------------------------------------------------------
+void Describe(vtkDataObject* model, const Report& report, bool whole, std::ostream& out)
 {
   const Sums sums = SumUp(model);
   const auto line = [&out](const char* label) -> std::ostream& {
@@ -230,12 +243,19 @@ void Describe(vtkDataObject* model, const Report& report, bool wholeTree, std::o
   if (vtkDataAssembly* tree = collection ? collection->GetDataAssembly() : nullptr)
   {
     line("Parts") << "\n";
-    Print(BranchOf(collection, tree, vtkDataAssembly::GetRootNode()), 0, wholeTree, out);
+    Print(BranchOf(collection, tree, vtkDataAssembly::GetRootNode()), 0, whole, out);
   }
   line("Problems") << (report.Problems.empty() ? "none" : "") << "\n";
-  for (const std::string& problem : report.Problems)
+  const size_t count = report.Problems.size();
+  const size_t shown = whole || count <= MostProblems ? count : MostProblems - 1;
+  for (size_t i = 0; i < shown; ++i)
   {
-    out << "  " << problem << "\n";
+    out << "  " << report.Problems[i] << "\n";
+  }
+  if (shown < count)
+  {
+    out << "  ... and " << Grouped(static_cast<std::int64_t>(count - shown))
+        << " more; --all shows all\n";
   }
 }
 

@@ -49,17 +49,21 @@ vtkNURBSEGLRenderWindow::~vtkNURBSEGLRenderWindow()
 }
 
 //--------------------------------------------------------------------------------------------------
-vtkSmartPointer<vtkNURBSEGLRenderWindow> vtkNURBSEGLRenderWindow::Create(
-  int width, int height, int deviceIndex)
+vtkNURBSEGLRenderWindow* vtkNURBSEGLRenderWindow::Create(int width, int height, int deviceIndex)
 {
-  auto window = vtkSmartPointer<vtkNURBSEGLRenderWindow>::New();
+  vtkNURBSEGLRenderWindow* window = vtkNURBSEGLRenderWindow::New();
   if (deviceIndex != -1)
   {
     window->SetDeviceIndex(deviceIndex);
   }
   window->SetSize(width, height);
   window->Initialize();
-  return window->ErrorMessage.empty() ? window : nullptr;
+  if (!window->ErrorMessage.empty())
+  {
+    window->Delete();
+    return nullptr;
+  }
+  return window;
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -9,7 +9,8 @@
  * Debian's VTK and ParaView.
  *
  * @code
- * auto window = vtkNURBSEGLRenderWindow::Create(800, 600);
+ * auto window = vtkSmartPointer<vtkNURBSEGLRenderWindow>::Take(
+ *   vtkNURBSEGLRenderWindow::Create(800, 600));
  * if (!window)
  * {
  *   return EXIT_FAILURE; // the reason was printed as a VTK error
@@ -53,7 +54,7 @@
 
 #include "vtkGenericOpenGLRenderWindow.h"
 #include "vtkNURBSRenderingEGLModule.h" // For export macro
-#include "vtkSmartPointer.h"            // For Create
+#include "vtkWrappingHints.h"           // For VTK_NEWINSTANCE
 
 #include <memory> // For the EGL handles
 #include <string> // For messages and names
@@ -67,11 +68,12 @@ public:
 
   /**
    * A window of width x height pixels whose context already works, or null after a vtkErrorMacro
-   * that tells why there is none. Multisampling is VTK's default; see SetMultiSamples().
-   * deviceIndex is that of SetDeviceIndex().
+   * that tells why there is none. The caller owns it: take it with vtkSmartPointer::Take (Python
+   * does so by itself). Multisampling is VTK's default; see SetMultiSamples(). deviceIndex is that
+   * of SetDeviceIndex(), and -1 leaves it as it is.
    */
-  static vtkSmartPointer<vtkNURBSEGLRenderWindow> Create(
-    int width, int height, int deviceIndex = -1);
+  VTK_NEWINSTANCE
+  static vtkNURBSEGLRenderWindow* Create(int width, int height, int deviceIndex = -1);
 
   ///@{
   /**

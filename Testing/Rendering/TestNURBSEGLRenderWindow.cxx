@@ -75,9 +75,14 @@ vtkSmartPointer<vtkRenderer> SquareScene(double z, double red, double green, dou
   return renderer;
 }
 
+Window Create(int width, int height)
+{
+  return Window::Take(vtkNURBSEGLRenderWindow::Create(width, height));
+}
+
 Window MakeWindow(int width, int height, vtkRenderer* renderer)
 {
-  Window window = vtkNURBSEGLRenderWindow::Create(width, height);
+  Window window = Create(width, height);
   if (window)
   {
     window->SetMultiSamples(0);
@@ -138,7 +143,7 @@ private:
 
 TEST(EGLRenderWindow, NamesWhatDraws)
 {
-  Window window = vtkNURBSEGLRenderWindow::Create(64, 64);
+  Window window = Create(64, 64);
   ASSERT_TRUE(window);
   EXPECT_FALSE(window->GetRendererName().empty());
   EXPECT_FALSE(window->GetVendorName().empty());
@@ -279,8 +284,8 @@ TEST(EGLRenderWindow, TwoWindowsDrawInTurns)
 
 TEST(EGLRenderWindow, DeletingOneLeavesTheOtherCurrent)
 {
-  Window a = vtkNURBSEGLRenderWindow::Create(16, 16);
-  Window b = vtkNURBSEGLRenderWindow::Create(16, 16);
+  Window a = Create(16, 16);
+  Window b = Create(16, 16);
   ASSERT_TRUE(a && b);
   a->MakeCurrent();
   b = nullptr;
@@ -464,7 +469,7 @@ TEST(EGLRenderWindowDeathTest, NoDriverIsToldInWords)
   EXPECT_EXIT(
     {
       setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
-      Window window = vtkNURBSEGLRenderWindow::Create(10, 10);
+      Window window = Create(10, 10);
       std::_Exit(window ? 1 : vtkNURBSEGLRenderWindow::CountDevices());
     },
     testing::ExitedWithCode(0), "Install an EGL driver");
