@@ -166,52 +166,108 @@ void CellZone::SortVertices()
   sort(false, this->ByVU, this->AtVU);
 }
 
-void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good)
+struct CellZone::Part
 {
-  this->SortVertices();
-  std::vector<std::pair<int, int>> directed;
+  std::vector<Triangle> Triangles; // A corner -1 - k is the middle of the leaf Fans[k].
+  std::vector<std::pair<int, int>> Directed;
+  std::vector<int> Fans;
+};
+
+std::uint64_t CellZone::Outline(const std::vector<int>& polygon) const
+{
+  std::uint64_t hash = 1469598103934665603ull;
+  for (int vertex : polygon)
+  {
+    hash = (hash ^ std::uint64_t(this->Keys[vertex].U)) * 1099511628211ull;
+    hash = (hash ^ std::uint64_t(this->Keys[vertex].V)) * 1099511628211ull;
+  }
+  return hash | 1;
+}
+
+void CellZone::TriangulatePart(std::size_t begin, std::size_t end,
+  const std::function<bool(const Triangle&)>& good, std::vector<LeafState>& states, Part& out) const
+{
   std::vector<int> polygon;
   std::vector<int> lower;
   std::vector<int> upper;
-  for (int k : this->Whole)
+  for (std::size_t at = begin; at < end; ++at)
   {
+    const int k = this->Whole[at];
     const TreeLeaf& leaf = this->Tree.Leaves()[k];
     this->Polygon(leaf, polygon, lower, upper);
     const int m = int(polygon.size());
     for (int i = 0; i < m; ++i)
     {
-      directed.emplace_back(polygon[i], polygon[(i + 1) % m]);
+      out.Directed.emplace_back(polygon[i], polygon[(i + 1) % m]);
     }
     if (m == 4)
     {
       const int* c = polygon.data();
-      if (leaf.Diagonal == 0)
-      {
-        this->Result.push_back({ { c[0], c[1], c[2] }, k, true });
-        this->Result.push_back({ { c[0], c[2], c[3] }, k, true });
-      }
-      else
-      {
-        this->Result.push_back({ { c[0], c[1], c[3] }, k, true });
-        this->Result.push_back({ { c[1], c[2], c[3] }, k, true });
-      }
+      const int d = leaf.Diagonal;
+      out.Triangles.push_back({ { c[0], c[1], c[2 + d] }, k, true });
+      out.Triangles.push_back({ { c[d], c[2], c[3] }, k, true });
+      continue;
     }
-    else
+    LeafState& state = states[k];
+    const std::uint64_t outline = this->Outline(polygon);
+    const bool known = state.Outline == outline;
+    const std::size_t first = out.Triangles.size();
+    if (!known || !state.Fan)
     {
-      const std::size_t first = this->Result.size();
-      this->Monotone(k, lower, upper);
-      if (!std::all_of(this->Result.begin() + first, this->Result.end(), good))
+      this->Monotone(k, lower, upper, out.Triangles);
+    }
+    if (!known)
+    {
+      state = LeafState();
+      state.Outline = outline;
+      state.Fan = !std::all_of(out.Triangles.begin() + first, out.Triangles.end(), good);
+    }
+    if (state.Fan)
+    {
+      out.Triangles.resize(first);
+      out.Fans.push_back(k);
+      for (int i = 0; i < m; ++i)
       {
-        this->Result.resize(first);
-        const int middle = int(this->Vertices.size());
-        this->Vertices.emplace_back(
-          0.5 * (leaf.Box.U0 + leaf.Box.U1), 0.5 * (leaf.Box.V0 + leaf.Box.V1));
-        for (int i = 0; i < m; ++i)
-        {
-          this->Result.push_back({ { polygon[i], polygon[(i + 1) % m], middle }, k, false });
-        }
+        out.Triangles.push_back(
+          { { polygon[i], polygon[(i + 1) % m], -int(out.Fans.size()) }, k, false });
       }
     }
+  }
+}
+
+void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good,
+  std::vector<LeafState>& states, const ParallelFor& parallel)
+{
+  this->SortVertices();
+  states.resize(this->Tree.Leaves().size());
+  constexpr std::size_t Grain = 2048;
+  std::vector<Part> parts((this->Whole.size() + Grain - 1) / Grain);
+  parallel(0, std::int64_t(parts.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t p = begin; p < end; ++p)
+    {
+      const std::size_t from = std::size_t(p) * Grain;
+      this->TriangulatePart(
+        from, std::min(from + Grain, this->Whole.size()), good, states, parts[p]);
+    }
+  });
+  std::vector<std::pair<int, int>> directed;
+  for (const Part& part : parts)
+  {
+    const int middles = int(this->Vertices.size());
+    for (int k : part.Fans)
+    {
+      const ParameterBox& box = this->Tree.Leaves()[k].Box;
+      this->Vertices.emplace_back(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1));
+    }
+    for (Triangle t : part.Triangles)
+    {
+      for (int& corner : t.Corner)
+      {
+        corner = corner < 0 ? middles - corner - 1 : corner;
+      }
+      this->Result.push_back(t);
+    }
+    directed.insert(directed.end(), part.Directed.begin(), part.Directed.end());
   }
   this->FindOpenSides(directed);
 }
@@ -302,7 +358,8 @@ void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vec
 
 // Linear-time triangulation of a convex cell with vertices on its sides: the sweep for monotone
 // polygons, in (u, v) order. Collinear triples never make a triangle.
-void CellZone::Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper)
+void CellZone::Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper,
+  std::vector<Triangle>& out) const
 {
   const std::vector<Key>& keys = this->Keys;
   const auto before = [&](int a, int b) {
@@ -322,11 +379,11 @@ void CellZone::Monotone(int leaf, const std::vector<int>& lower, const std::vect
     const double t = turn(a, b, c);
     if (t > 0.0)
     {
-      this->Result.push_back({ { a, b, c }, leaf, false });
+      out.push_back({ { a, b, c }, leaf, false });
     }
     else if (t < 0.0)
     {
-      this->Result.push_back({ { a, c, b }, leaf, false });
+      out.push_back({ { a, c, b }, leaf, false });
     }
   };
   struct Item

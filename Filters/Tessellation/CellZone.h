@@ -11,6 +11,14 @@
 namespace nurbs
 {
 
+/// What is known of a whole leaf's triangles, for as long as its outline stays the same.
+struct LeafState
+{
+  std::uint64_t Outline = 0; ///< Hash of the outline's vertices; 0: nothing is known.
+  bool Fan = false;          ///< Triangulated around its middle.
+  double Error = -1.0;       ///< Of its triangles; negative: not computed yet.
+};
+
 /// Sorts a tree's leaves, triangulates the whole ones and tells what the border zone needs.
 class CellZone
 {
@@ -30,7 +38,9 @@ public:
   const std::vector<Vec2>& Points() const { return this->Vertices; }
   /// Triangulates the whole cells, with the T-vertices on their sides. A cell with T-vertices one of
   /// whose triangles is not `good` becomes a fan around its middle, a new point of Points().
-  void TriangulateWhole(const std::function<bool(const Triangle&)>& good);
+  /// @param states one a leaf; what it knows of unchanged cells is not tried again.
+  void TriangulateWhole(const std::function<bool(const Triangle&)>& good,
+    std::vector<LeafState>& states, const ParallelFor& parallel);
   const std::vector<Triangle>& Triangles() const { return this->Result; }
   /// Sides of whole cells that face the border zone, directed with the zone on their left.
   const std::vector<std::pair<int, int>>& OpenSides() const { return this->Sides; }
@@ -60,7 +70,13 @@ private:
   void FindOpenSides(const std::vector<std::pair<int, int>>& directed);
   void Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
     std::vector<int>& upper) const;
-  void Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper);
+  void Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper,
+    std::vector<Triangle>& out) const;
+  struct Part;
+  void TriangulatePart(std::size_t begin, std::size_t end,
+    const std::function<bool(const Triangle&)>& good, std::vector<LeafState>& states,
+    Part& out) const;
+  std::uint64_t Outline(const std::vector<int>& polygon) const;
 
   const SurfaceTree& Tree;
   std::vector<int> Whole; ///< Leaves.

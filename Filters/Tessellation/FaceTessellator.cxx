@@ -2,7 +2,6 @@
 #include "FaceTessellator.h"
 
 #include "BorderTriangulation.h"
-#include "CellZone.h"
 #include "FacetBound.h"
 
 #include <algorithm>
@@ -337,10 +336,12 @@ private:
     }
     this->EvaluateFrom(first, false);
     const std::size_t corners = zone.Points().size();
-    zone.TriangulateWhole([&](const CellZone::Triangle& t) {
-      const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-      return this->TriangleError(corner, -1 - t.Leaf) <= this->Limit();
-    });
+    zone.TriangulateWhole(
+      [&](const CellZone::Triangle& t) {
+        const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
+        return this->TriangleError(corner, -1 - t.Leaf) <= this->Limit();
+      },
+      *this->Job.States, this->Job.Parallel);
     const std::size_t middles = this->Mesh.UV.size();
     this->Mesh.UV.insert(this->Mesh.UV.end(), zone.Points().begin() + corners, zone.Points().end());
     this->EvaluateFrom(middles, false);
@@ -929,13 +930,30 @@ private:
     double worst = this->Flatness;
     if (this->Job.Tree)
     {
+      std::vector<double> error(this->Leaf.size());
+      this->Job.Parallel(
+        0, std::int64_t(this->Leaf.size()), [&](std::int64_t begin, std::int64_t end) {
+          for (std::int64_t k = begin; k < end; ++k)
+          {
+            const int leaf = this->Leaf[k];
+            const double known =
+              leaf < 0 && leaf != NoLeaf ? (*this->Job.States)[-1 - leaf].Error : -1.0;
+            error[k] =
+              known >= 0.0 ? known : this->TriangleError(&this->Mesh.Triangles[3 * k], leaf);
+          }
+        });
       for (std::size_t k = 0; k < this->Leaf.size(); ++k)
       {
-        const double error = this->TriangleError(&this->Mesh.Triangles[3 * k], this->Leaf[k]);
-        worst = std::max(worst, error);
-        if (error > this->Limit() && this->Leaf[k] != NoLeaf)
+        worst = std::max(worst, error[k]);
+        const int leaf = this->Leaf[k];
+        if (leaf < 0 && leaf != NoLeaf)
         {
-          this->WeakLeaves.push_back(this->Leaf[k] >= 0 ? this->Leaf[k] : -1 - this->Leaf[k]);
+          double& known = (*this->Job.States)[-1 - leaf].Error;
+          known = std::max(known, error[k]);
+        }
+        if (error[k] > this->Limit() && leaf != NoLeaf)
+        {
+          this->WeakLeaves.push_back(leaf >= 0 ? leaf : -1 - leaf);
         }
       }
     }

@@ -8,8 +8,8 @@
 /// get another vertex.
 #pragma once
 
+#include "CellZone.h"
 #include "EdgeDiscretizer.h"
-#include "TrimRegion.h"
 
 namespace nurbs
 {
@@ -31,7 +31,8 @@ struct FaceJob
   const std::vector<EdgePolyline>* Edges = nullptr;
   const TessellatorOptions* Options = nullptr;
   double Tolerance = 0.0;
-  bool LastPass = false; ///< No more requests: repair or report instead.
+  std::vector<LeafState>* States = nullptr; ///< Kept from pass to pass; see CellZone.
+  bool LastPass = false;                    ///< No more requests: repair or report instead.
   ParallelFor Parallel = SerialFor;
 };
 

@@ -35,6 +35,7 @@ public:
     this->Bounds.resize(faces);
     this->Trees.resize(faces);
     this->Contexts.resize(faces);
+    this->States.resize(faces);
     this->FindUses();
     this->OrderFaces();
 
@@ -268,6 +269,7 @@ private:
         job.Edges = &this->Polylines;
         job.Options = &this->Options;
         job.Tolerance = this->ToleranceOf(f);
+        job.States = &this->States[f];
         job.LastPass = last;
         job.Parallel = parallel;
         this->Result.Meshes[f] = TessellateFace(job, requests[f], weak[f]);
@@ -389,6 +391,7 @@ private:
   std::vector<std::unique_ptr<SurfaceBound>> Bounds;
   std::vector<std::unique_ptr<SurfaceTree>> Trees;
   std::vector<FaceContext> Contexts;
+  std::vector<std::vector<LeafState>> States;
   std::vector<EdgePolyline> Polylines;
   std::vector<std::vector<double>> Extra;
   TessellationResult Result;
