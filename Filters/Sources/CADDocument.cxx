@@ -2,6 +2,7 @@
 #include "CADDocument.h"
 
 #include "AssemblyTree.h"
+#include "CrashGuard.h"
 #include "FaceConverter.h"
 
 #include <BRepTools.hxx>
@@ -9,18 +10,25 @@
 #include <BinTools.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESGeom_TrimmedSurface.hxx>
+#include <IGESSolid_Face.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <StepShape_FaceSurface.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
+#include <Transfer_Binder.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include <cctype>
 #include <filesystem>
@@ -141,6 +149,39 @@ void CheckRead(IFSelect_ReturnStatus status, const std::string& path, CADFormat 
   }
 }
 
+/// OpenCASCADE leaves out faces that it fails to make and says so in a log only.
+void WarnOfLostFaces(const Handle(XSControl_WorkSession) & session, CADDocument& document)
+{
+  const Handle(Interface_InterfaceModel) model = session->Model();
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  if (model.IsNull() || process.IsNull())
+  {
+    return;
+  }
+  int lost = 0;
+  std::string first;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+  {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    if (!entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)) &&
+      !entity->IsKind(STANDARD_TYPE(IGESGeom_TrimmedSurface)) &&
+      !entity->IsKind(STANDARD_TYPE(IGESSolid_Face)))
+    {
+      continue;
+    }
+    const Handle(Transfer_Binder) binder = process->Find(entity);
+    if (binder.IsNull() || !binder->HasResult())
+    {
+      first = lost++ == 0 ? model->StringLabel(entity)->ToCString() : first;
+    }
+  }
+  if (lost > 0)
+  {
+    document.Warnings.push_back("OpenCASCADE could not make " + std::to_string(lost) +
+      " faces of the file's data, the first of them " + first);
+  }
+}
+
 void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDocument& document)
 {
   STEPCAFControl_Reader reader;
@@ -164,6 +205,7 @@ void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDo
   {
     throw Error("\"" + path + "\": no shape could be made from the STEP file's data");
   }
+  WarnOfLostFaces(reader.ChangeReader().WS(), document);
   ReadAssembly(data, document);
 }
 
@@ -185,6 +227,7 @@ void LoadIges(const std::string& path, const Message_ProgressRange& range, CADDo
   {
     throw Error("\"" + path + "\": no shape could be made from the IGES file's data");
   }
+  WarnOfLostFaces(reader.WS(), document);
   const TopoDS_Shape shape = reader.OneShape();
   if (HasFace(shape))
   {
@@ -245,8 +288,19 @@ CADDocument LoadCADFile(const std::string& path, const CADProgress& report)
   const Handle(Progress) progress = new Progress(report);
   try
   {
-    const Message_ProgressRange range = progress->Start();
-    Load(path, range, document);
+    // Allocated apart: what a crash leaves behind is never touched again.
+    auto loaded = std::make_unique<CADDocument>(document);
+    const int signal = RunGuarded([&] {
+      const Message_ProgressRange range = progress->Start();
+      Load(path, range, *loaded);
+    });
+    if (signal != 0)
+    {
+      static_cast<void>(loaded.release());
+      throw Error("\"" + path + "\" is a broken " + NameOf(document.Format) +
+        " file: OpenCASCADE fails on its data");
+    }
+    document = std::move(*loaded);
   }
   catch (const Standard_Failure& failure)
   {

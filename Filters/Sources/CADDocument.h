@@ -36,9 +36,10 @@ struct CADDocument
   std::vector<TopoDS_Shape> Parts;
   std::vector<Instance> Instances; ///< In the order of FaceId.
   std::vector<Node> Nodes;
-  bool HasColors = false;      ///< Some face has a colour of its own or inherits one.
-  std::string FileUnit = "mm"; ///< Unit of length in the file: "mm", "m", "in", ...
-  double FileUnitLength = 1.0; ///< That unit in millimetres.
+  std::vector<std::string> Warnings; ///< What OpenCASCADE could not make shapes of.
+  bool HasColors = false;            ///< Some face has a colour of its own or inherits one.
+  std::string FileUnit = "mm";       ///< Unit of length in the file: "mm", "m", "in", ...
+  double FileUnitLength = 1.0;       ///< That unit in millimetres.
 };
 
 /// Called with the part done (0 to 1); returns false to stop. From the calling thread.

@@ -9,6 +9,7 @@ namespace nurbs
 namespace
 {
 constexpr double QuarterTurn = 1.57079632679489661923;
+constexpr double MaxSpans = 1e4;
 }
 
 ParameterMap ParameterMap::Circular(double offset)
@@ -79,6 +80,10 @@ void ParameterMap::AppendBreaks(double a, double b, std::vector<double>& breaks)
   }
   const double h = this->Span();
   const double rounding = 1e-10 * h;
+  if (!(b - a < MaxSpans * h))
+  {
+    throw Error("a circle or hyperbola runs through too many turns or is not a number");
+  }
   for (double k = std::floor((a - this->Start) / h);; k += 1.0)
   {
     const double t = this->Start + k * h;

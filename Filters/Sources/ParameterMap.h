@@ -44,7 +44,8 @@ public:
   double Span() const;
   /// Where the first span begins.
   double Offset() const { return this->Start; }
-  /// Appends the breaks inside (a, b) that are not within rounding of its ends, in order.
+  /// Appends the breaks inside (a, b) that are not within rounding of its ends, in order. Throws
+  /// Error if there are over 10,000.
   void AppendBreaks(double a, double b, std::vector<double>& breaks) const;
   /// The interval moved outwards so that no end is a sliver of a span: an end within 1e-10 spans of a
   /// break snaps to it, and one within 1e-3 spans beyond a break moves to 1e-3 spans.

@@ -190,6 +190,7 @@ void AppendCrossings(const std::function<double(double)>& function,
   const std::vector<double>& breaks, double offset, double span, std::vector<double>& crossings)
 {
   constexpr int Steps = 8;
+  constexpr double MaxCrossings = 1e4; // between two samples
   auto place = [&](double x) { return (function(x) - offset) / span; };
   double x0 = breaks.front();
   double f0 = place(x0);
@@ -201,6 +202,10 @@ void AppendCrossings(const std::function<double(double)>& function,
       const double f1 = place(x1);
       const double low = std::min(f0, f1);
       const double high = std::max(f0, f1);
+      if (!(high - low < MaxCrossings))
+      {
+        throw Error("a trim curve winds too often around the surface, or is not a number");
+      }
       for (double k = std::ceil(low); k <= high && high - low > 1e-12; k += 1.0)
       {
         double a = x0;

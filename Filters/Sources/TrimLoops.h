@@ -38,7 +38,7 @@ std::vector<OrderedLoop> OrderLoops(const std::vector<TrimEnds>& ends, const Vec
 std::vector<Vec2> GatherLoops(const std::vector<LoopBox>& boxes, const Vec2& period);
 
 /// Appends the parameters between neighbouring `breaks` where the function crosses
-/// offset + k span for an integer k.
+/// offset + k span for an integer k. Throws Error if that is absurdly often.
 void AppendCrossings(const std::function<double(double)>& function,
   const std::vector<double>& breaks, double offset, double span, std::vector<double>& crossings);
 

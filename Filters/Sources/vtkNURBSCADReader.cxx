@@ -215,6 +215,10 @@ int vtkNURBSCADReader::RequestData(
   }
   const double parsed = Now();
   this->ParseSeconds = parsed - start;
+  for (const std::string& warning : document.Warnings)
+  {
+    vtkWarningMacro("\"" << this->FileName << "\": " << warning);
+  }
 
   std::vector<nurbs::Part> parts;
   std::atomic<bool> abort{ false };

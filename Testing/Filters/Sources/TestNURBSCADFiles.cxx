@@ -431,6 +431,35 @@ TEST(BadCADFiles, TruncatedBrepAtEveryFiftiethPart)
   }
 }
 
+// OpenCASCADE follows the null reference; the next file must be read as ever.
+TEST(BadCADFiles, StepWithEntitiesMissing)
+{
+  const std::string good =
+    WriteStep(BRepPrimAPI_MakeCylinder(1.0, 3.0).Shape(), "entities.step", "MM");
+  const std::string text = Content(good);
+  for (const char* entity : { "CYLINDRICAL_SURFACE(", "VERTEX_POINT(", "EDGE_LOOP(", "CIRCLE(" })
+  {
+    std::string broken = text;
+    const std::size_t at = broken.find(entity);
+    ASSERT_NE(at, std::string::npos) << entity;
+    const std::size_t line = broken.rfind('\n', at);
+    broken.erase(line, broken.find(';', at) + 1 - line);
+    vtkNew<vtkNURBSCADReader> reader;
+    vtkNew<MessageKeeper> errors, warnings;
+    reader->AddObserver(vtkCommand::ErrorEvent, errors);
+    reader->AddObserver(vtkCommand::WarningEvent, warnings);
+    reader->SetFileName(WriteText("entity.step", broken).c_str());
+    vtkIdType faces = 0;
+    for (const auto& grid : Models(reader))
+    {
+      faces += grid->GetNumberOfCells();
+    }
+    EXPECT_TRUE(faces == 3 || !errors->Text.empty() || !warnings->Text.empty())
+      << entity << ": " << faces << " faces and not a word";
+    EXPECT_EQ(ReadOne(good)->GetNumberOfCells(), 3);
+  }
+}
+
 TEST(BadCADFiles, NoFace)
 {
   TopoDS_Compound compound;
