@@ -10,7 +10,7 @@ namespace
 {
 constexpr double QuarterTurn = 1.57079632679489661923;
 constexpr double MaxSpans = 1e4;
-}
+} // namespace
 
 ParameterMap ParameterMap::Circular(double offset)
 {
