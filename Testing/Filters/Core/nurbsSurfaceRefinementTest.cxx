@@ -191,7 +191,8 @@ TEST(SurfaceRefinement, ReductionStaysWithinItsToleranceWhateverTheWeights)
     {
       // Nearly a straight strip; its weights alone bend the parameter.
       surface.Points[k] = Vec3(k % 3, k / 3, 0.0);
-      surface.Weights[k] = random.Uniform(0.9, 1.1);
+      // A common factor changes nothing.
+      surface.Weights[k] = random.Uniform(0.9, 1.1) * (trial % 2 == 0 ? 1.0 : 0.05);
     }
     const double tolerance = random.Uniform(0.01, 0.1);
     const Surface reduced = ReduceDegree(surface.View(), 0, tolerance);
