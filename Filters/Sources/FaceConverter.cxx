@@ -544,7 +544,7 @@ double Converter::Deviation(const Part::TrimCurve& trim) const
     [&](double t) {
       return (this->Lift(trim.Geometry.View(), t) - Evaluate(edge.Geometry.View(), t)).norm();
     },
-    SampleParameters(trim.Geometry.View(), edge.Geometry.View()));
+    SampleParameters(trim.Geometry.View(), edge.Geometry.View()), 1e-11 * this->Table.Size);
 }
 
 /// Tells how far the edges are and where the face sees the vertices.

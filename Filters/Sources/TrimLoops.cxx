@@ -11,6 +11,8 @@ namespace nurbs
 namespace
 {
 
+constexpr std::size_t MaxTops = 12; // searched by LargestValue
+
 /// Whole periods that bring `p` nearest to `target`.
 Vec2 PeriodsTo(const Vec2& target, const Vec2& p, const Vec2& period)
 {
@@ -253,8 +255,8 @@ std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3
   return samples;
 }
 
-double LargestValue(
-  const std::function<double(double)>& function, const std::vector<double>& samples)
+double LargestValue(const std::function<double(double)>& function,
+  const std::vector<double>& samples, double negligible)
 {
   std::vector<double> values;
   for (const double t : samples)
@@ -262,18 +264,28 @@ double LargestValue(
     values.push_back(function(t));
   }
   double largest = *std::max_element(values.begin(), values.end());
-  const double worth = 0.6 * largest;
+  if (largest <= negligible)
+  {
+    return largest;
+  }
+  std::vector<std::size_t> tops;
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     const std::size_t before = i == 0 ? 0 : i - 1;
     const std::size_t after = std::min(i + 1, samples.size() - 1);
-    if (values[i] < worth || values[i] < values[before] || values[i] < values[after])
+    if (values[i] >= 0.6 * largest && values[i] >= values[before] && values[i] >= values[after])
     {
-      continue;
+      tops.push_back(i);
     }
-    double a = samples[before];
-    double b = samples[after];
-    for (int step = 0; step < 12; ++step)
+  }
+  std::sort(
+    tops.begin(), tops.end(), [&](std::size_t i, std::size_t k) { return values[i] > values[k]; });
+  tops.resize(std::min(tops.size(), MaxTops));
+  for (const std::size_t i : tops)
+  {
+    double a = samples[i == 0 ? 0 : i - 1];
+    double b = samples[std::min(i + 1, samples.size() - 1)];
+    for (int step = 0; step < 10; ++step)
     {
       const double p = a + 0.382 * (b - a);
       const double q = a + 0.618 * (b - a);

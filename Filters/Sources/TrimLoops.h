@@ -46,8 +46,8 @@ void AppendCrossings(const std::function<double(double)>& function,
 std::vector<double> SampleParameters(const CurveView<2>& trim, const CurveView<3>& edge);
 
 /// The largest value of a function over the range of the sorted samples: the samples' own, and the
-/// tops between neighbours of every local maximum that is not far lower.
-double LargestValue(
-  const std::function<double(double)>& function, const std::vector<double>& samples);
+/// tops between neighbours of the highest local maxima unless all is at most `negligible`.
+double LargestValue(const std::function<double(double)>& function,
+  const std::vector<double>& samples, double negligible);
 
 } // namespace nurbs
