@@ -211,7 +211,8 @@ public:
 
   ///@{
   /**
-   * Longest edge of a triangle, in the unit of the points. Default 0: no limit.
+   * Longest edge of a triangle, in the unit of the points. Default 0: no limit. Holds for the cells
+   * of surfaces and for trimming edges; triangles that join the two may exceed it.
    */
   vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumEdgeLength, double);
@@ -220,7 +221,8 @@ public:
   ///@{
   /**
    * Largest angle in degrees between the surface's normals at the corners of a triangle. Default 0:
-   * no limit; up to 180.
+   * no limit; up to 180. Surfaces are divided by it, trimming edges are not, so that triangles along
+   * an edge may exceed it.
    */
   vtkSetClampMacro(MaximumAngle, double, 0.0, 180.0);
   vtkGetMacro(MaximumAngle, double);
@@ -245,6 +247,15 @@ public:
   vtkGetMacro(MergePoints, bool);
   vtkBooleanMacro(MergePoints, bool);
   ///@}
+
+  /// What became of a face: the values of the field data FaceStatus.
+  enum FaceStatusTypes
+  {
+    OK = 0,       ///< Within the tolerance.
+    REPAIRED = 1, ///< Likewise; its trimming loops had to be repaired.
+    CAPPED = 2,   ///< Not within the tolerance; FaceCertifiedError tells what was reached.
+    FAILED = 3    ///< No triangles.
+  };
 
   ///@{
   /**

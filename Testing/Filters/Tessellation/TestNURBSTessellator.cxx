@@ -2,6 +2,7 @@
 // vtkNURBSTessellator in pipelines: arrays, composite inputs, tolerances, merged points, threads,
 // errors and abort, on shapes with closed forms.
 #include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
 #include "vtkNURBSShapeSource.h"
 #include "vtkNURBSTessellator.h"
 
@@ -14,6 +15,7 @@
 #include "vtkExecutive.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
 #include "vtkMassProperties.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
@@ -27,9 +29,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <condition_variable>
+#include <cstring>
 #include <map>
+#include <mutex>
 #include <set>
 
 namespace
@@ -233,27 +239,144 @@ TEST(NURBSTessellator, SharesEdgesBitForBitOnTheSecondPort)
   }
 }
 
+/// Two arrays, null ones included, hold the same bits.
+bool SameBits(vtkDataArray* a, vtkDataArray* b)
+{
+  return (!a && !b) ||
+    (a && b && a->GetDataType() == b->GetDataType() &&
+      a->GetNumberOfValues() == b->GetNumberOfValues() &&
+      (a->GetNumberOfValues() == 0 ||
+        std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0),
+          static_cast<std::size_t>(a->GetNumberOfValues()) * a->GetDataTypeSize()) == 0));
+}
+
+void ExpectSameMesh(vtkPolyData* a, vtkPolyData* b)
+{
+  ASSERT_TRUE(a && b);
+  EXPECT_GT(a->GetNumberOfCells(), 0);
+  EXPECT_TRUE(SameBits(a->GetPoints()->GetData(), b->GetPoints()->GetData()));
+  for (vtkCellArray* (vtkPolyData::*cells)() : { &vtkPolyData::GetPolys, &vtkPolyData::GetLines })
+  {
+    EXPECT_TRUE(
+      SameBits((a->*cells)()->GetConnectivityArray(), (b->*cells)()->GetConnectivityArray()));
+  }
+  const auto same = [](vtkFieldData* x, vtkFieldData* y) {
+    ASSERT_EQ(x->GetNumberOfArrays(), y->GetNumberOfArrays());
+    for (int i = 0; i < x->GetNumberOfArrays(); ++i)
+    {
+      EXPECT_TRUE(SameBits(x->GetArray(i), y->GetArray(i))) << x->GetArrayName(i);
+    }
+  };
+  same(a->GetPointData(), b->GetPointData());
+  same(a->GetCellData(), b->GetCellData());
+  same(a->GetFieldData(), b->GetFieldData());
+}
+
 TEST(NURBSTessellator, DoesNotDependOnTheThreads)
 {
   vtkNew<vtkNURBSTessellator> tessellator;
-  tessellator->SetInputData(Shape(vtkNURBSShapeSource::TEAPOT));
-  vtkSMPTools::Initialize(1);
-  tessellator->Update();
-  vtkNew<vtkPolyData> one;
-  one->DeepCopy(Mesh(tessellator));
-  vtkSMPTools::Initialize(2);
-  tessellator->Modified();
-  tessellator->Update();
-  vtkPolyData* two = Mesh(tessellator);
-  ASSERT_EQ(one->GetNumberOfPoints(), two->GetNumberOfPoints());
-  ASSERT_EQ(one->GetNumberOfPolys(), two->GetNumberOfPolys());
-  for (vtkIdType i = 0; i < one->GetNumberOfPoints(); ++i)
+  tessellator->SetTolerance(3e-4);
+  for (int shape :
+    { vtkNURBSShapeSource::TEAPOT, vtkNURBSShapeSource::SHEET, vtkNURBSShapeSource::CAR_BODY })
   {
-    double p[3];
-    one->GetPoint(i, p);
-    const double* q = two->GetPoint(i);
-    ASSERT_TRUE(p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) << i;
+    SCOPED_TRACE(shape);
+    tessellator->SetInputData(Shape(shape));
+    vtkNew<vtkPolyData> mesh, lines;
+    for (int threads : { 1, 2, 3 })
+    {
+      vtkSMPTools::Initialize(threads);
+      tessellator->Modified();
+      tessellator->Update();
+      if (threads == 1)
+      {
+        mesh->DeepCopy(Mesh(tessellator));
+        lines->DeepCopy(Lines(tessellator));
+        continue;
+      }
+      ExpectSameMesh(Mesh(tessellator), mesh);
+      ExpectSameMesh(Lines(tessellator), lines);
+    }
   }
+  vtkSMPTools::Initialize(0);
+}
+
+TEST(NURBSTessellator, RunsInParallelWhateverTheDefaultBackend)
+{
+  const std::string before = vtkSMPTools::GetBackend();
+  vtkSMPTools::Initialize(2);
+  {
+    const vtkNURBSParallelScope parallel;
+    ASSERT_EQ(vtkSMPTools::GetEstimatedNumberOfThreads(), 2);
+    // Each of two items waits until the other has come, which takes two threads.
+    std::mutex mutex;
+    std::condition_variable arrival;
+    int arrived = 0;
+    bool met = true;
+    vtkNURBSParallelFor(0, 2, [&](std::int64_t begin, std::int64_t end) {
+      std::unique_lock<std::mutex> lock(mutex);
+      arrived += static_cast<int>(end - begin);
+      arrival.notify_all();
+      met = arrival.wait_for(lock, std::chrono::seconds(20), [&] { return arrived == 2; }) && met;
+    });
+    EXPECT_TRUE(met);
+    EXPECT_THROW(vtkNURBSParallelFor(0, 100,
+                   [](std::int64_t begin, std::int64_t) {
+                     if (begin > 40)
+                     {
+                       throw nurbs::Error("stop");
+                     }
+                   }),
+      nurbs::Error);
+    std::vector<int> visits(1000, 0);
+    vtkNURBSParallelFor(0, 1000, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        ++visits[i];
+      }
+    });
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 1000);
+  }
+  vtkSMPTools::Initialize(0);
+  EXPECT_EQ(vtkSMPTools::GetBackend(), before);
+}
+
+TEST(NURBSTessellator, GivesModelsOfACompositeInputWhatTheyGetAlone)
+{
+  const int shapes[] = { vtkNURBSShapeSource::PLATE, vtkNURBSShapeSource::CYLINDER,
+    vtkNURBSShapeSource::TEAPOT };
+  vtkNew<vtkPartitionedDataSetCollection> models;
+  vtkNew<vtkNURBSTessellator> together;
+  together->SetToleranceModeToAbsolute();
+  together->SetAbsoluteTolerance(0.01);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    models->SetPartition(i, 0, Shape(shapes[i]));
+    models->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), std::to_string(i));
+  }
+  together->SetInputDataObject(0, models);
+  together->Update();
+  vtkIdType triangles = 0;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    SCOPED_TRACE(i);
+    vtkNew<vtkNURBSTessellator> alone;
+    alone->SetToleranceModeToAbsolute();
+    alone->SetAbsoluteTolerance(0.01);
+    alone->SetInputData(models->GetPartition(i, 0));
+    alone->Update();
+    triangles += alone->GetNumberOfTriangles();
+    vtkPolyData* const own[] = { Mesh(alone), Lines(alone) };
+    for (int port = 0; port < 2; ++port)
+    {
+      auto* outputs =
+        vtkPartitionedDataSetCollection::SafeDownCast(together->GetOutputDataObject(port));
+      ASSERT_TRUE(outputs);
+      EXPECT_STREQ(
+        outputs->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()), std::to_string(i).c_str());
+      ExpectSameMesh(vtkPolyData::SafeDownCast(outputs->GetPartition(i, 0)), own[port]);
+    }
+  }
+  EXPECT_EQ(together->GetNumberOfTriangles(), triangles);
 }
 
 TEST(NURBSTessellator, TakesPixelsOfPerspectiveAndParallelViews)
@@ -282,6 +405,56 @@ TEST(NURBSTessellator, TakesPixelsOfPerspectiveAndParallelViews)
   camera->SetPosition(0, 0, 101);
   tessellator->Update();
   EXPECT_LT(tessellator->GetNumberOfTriangles(), near / 3);
+}
+
+TEST(NURBSTessellator, GivesEachFaceThePixelsOfItsDistance)
+{
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(2500, 0, 800); // Before the car body's front, which is at x = 2200.
+  camera->SetFocalPoint(0, 0, 800);
+  camera->SetClippingRange(10.0, 10000.0);
+  vtkNew<vtkNURBSTessellator> tessellator;
+  tessellator->SetInputData(Shape(vtkNURBSShapeSource::CAR_BODY));
+  tessellator->SetToleranceModeToPixels();
+  tessellator->SetPixelTolerance(5.0);
+  tessellator->SetCamera(camera);
+  tessellator->Update();
+  vtkFieldData* field = Mesh(tessellator)->GetFieldData();
+  vtkDataArray* tolerances = field->GetArray("FaceTolerance");
+  vtkDataArray* errors = field->GetArray("FaceCertifiedError");
+  vtkDataArray* status = field->GetArray("FaceStatus");
+  ASSERT_TRUE(tolerances && errors && status);
+  double range[2];
+  tolerances->GetRange(range);
+  EXPECT_EQ(range[1], tessellator->GetToleranceUsed());
+  EXPECT_GT(range[1], 10.0 * range[0]);
+  for (vtkIdType f = 0; f < tolerances->GetNumberOfTuples(); ++f)
+  {
+    if (status->GetTuple1(f) < vtkNURBSTessellator::CAPPED)
+    {
+      EXPECT_LE(errors->GetTuple1(f), tolerances->GetTuple1(f)) << f;
+    }
+  }
+  // Turned round, all faces are behind the camera: none is worth more than before.
+  const vtkIdType seen = tessellator->GetNumberOfTriangles();
+  camera->SetFocalPoint(5000, 0, 800);
+  tessellator->Update();
+  EXPECT_LE(tessellator->GetNumberOfTriangles(), 1.1 * seen);
+}
+
+TEST(NURBSTessellator, CapsAFaceThatWouldExplode)
+{
+  vtkNew<vtkNURBSTessellator> tessellator;
+  tessellator->SetInputData(Shape(vtkNURBSShapeSource::TORUS));
+  tessellator->SetTolerance(1e-4);
+  tessellator->SetMaximumFaceTriangles(200);
+  vtkNew<vtkCallbackCommand> silent;
+  tessellator->AddObserver(vtkCommand::WarningEvent, silent);
+  tessellator->Update();
+  EXPECT_EQ(tessellator->GetNumberOfCappedFaces(), 1);
+  EXPECT_GT(tessellator->GetCertifiedError(), tessellator->GetToleranceUsed());
+  EXPECT_GT(tessellator->GetNumberOfTriangles(), 0);
+  EXPECT_EQ(FieldValue(Mesh(tessellator), "FaceStatus"), vtkNURBSTessellator::CAPPED);
 }
 
 /// Counts events instead of printing them.
@@ -346,7 +519,11 @@ TEST(NURBSTessellator, NamesFacesThatFail)
   ASSERT_TRUE(messages);
   EXPECT_FALSE(messages->GetValue(0).empty());
   EXPECT_EQ(FieldValue(Mesh(tessellator), "FaceStatus"), 3.0);
-  EXPECT_GT(tessellator->GetNumberOfTriangles(), 0);
+  // The two lids come out whole.
+  vtkNew<vtkMassProperties> mass;
+  mass->SetInputData(Mesh(tessellator));
+  mass->Update();
+  EXPECT_NEAR(mass->GetSurfaceArea(), 2.0 * std::acos(-1.0), 0.1);
 }
 
 TEST(NURBSTessellator, ObeysAbort)
