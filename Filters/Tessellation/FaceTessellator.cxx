@@ -2,6 +2,7 @@
 #include "FaceTessellator.h"
 
 #include "BorderTriangulation.h"
+#include "BoundaryRepair.h"
 #include "FacetBound.h"
 
 #include <algorithm>
@@ -70,9 +71,30 @@ private:
       }
       this->Loops.push_back(std::move(loop));
     }
+    if (this->Requests.empty())
+    {
+      this->RepairLoops();
+    }
     if (this->Loops.empty() && this->Requests.empty())
     {
       this->Note(FaceStatus::Failed, "its loops enclose no area");
+    }
+  }
+
+  void RepairLoops()
+  {
+    std::string repair;
+    try
+    {
+      repair = RepairBoundary(this->Loops, this->Job.LastPass);
+    }
+    catch (const Error& problem)
+    {
+      repair = problem.what(); // the loops stay as they are
+    }
+    if (!repair.empty())
+    {
+      this->Note(FaceStatus::Repaired, repair);
     }
   }
 

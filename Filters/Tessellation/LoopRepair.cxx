@@ -288,10 +288,9 @@ bool LiesInside(const std::vector<Vec2>& inner, const std::vector<Vec2>& outer)
   return false;
 }
 
-// Turns loops round whose direction does not fit their depth; returns how many.
-int Orient(LoopsR& loops)
+// The loops whose direction does not fit their depth.
+std::vector<std::size_t> WrongWay(const Loops2& polygons)
 {
-  const Loops2 polygons = Positions(loops);
   std::vector<Box2> boxes(polygons.size());
   for (std::size_t i = 0; i < polygons.size(); ++i)
   {
@@ -300,21 +299,20 @@ int Orient(LoopsR& loops)
       boxes[i].extend(p);
     }
   }
-  int turned = 0;
-  for (std::size_t i = 0; i < loops.size(); ++i)
+  std::vector<std::size_t> wrong;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
   {
     int depth = 0;
-    for (std::size_t j = 0; j < loops.size(); ++j)
+    for (std::size_t j = 0; j < polygons.size(); ++j)
     {
       depth += i != j && boxes[j].contains(boxes[i]) && LiesInside(polygons[i], polygons[j]);
     }
     if ((SignedArea2(polygons[i]) > 0.0) != (depth % 2 == 0))
     {
-      Reverse(loops[i]);
-      ++turned;
+      wrong.push_back(i);
     }
   }
-  return turned;
+  return wrong;
 }
 
 // Removes loops of fewer than three vertices or all on a line; returns how many.
@@ -523,6 +521,11 @@ void Say(RepairedLoops& repaired, const std::string& what)
 
 } // namespace
 
+bool LoopsRunRight(const Loops2& loops)
+{
+  return WrongWay(loops).empty();
+}
+
 RepairedLoops RepairLoops(const Loops2& loops)
 {
   RepairedLoops out;
@@ -562,7 +565,12 @@ RepairedLoops RepairLoops(const Loops2& loops)
     DropRepeated(out.Loops);
     DropFlat(out.Loops);
   }
-  if (const int turned = Orient(out.Loops))
+  const std::vector<std::size_t> wrong = WrongWay(Positions(out.Loops));
+  for (const std::size_t i : wrong)
+  {
+    Reverse(out.Loops[i]);
+  }
+  if (const std::size_t turned = wrong.size())
   {
     Say(out,
       Count(turned, "loop that ran the wrong way turned", "loops that ran the wrong way turned"));

@@ -81,6 +81,10 @@ struct RepairedLoops
 /// Throws Error if a coordinate is not finite, or if three rounds are not enough.
 RepairedLoops RepairLoops(const Loops2& loops);
 
+/// True if loops inside an even number of others are counter-clockwise and the rest clockwise. Only
+/// sensible for loops that do not cross; quick for few loops.
+bool LoopsRunRight(const Loops2& loops);
+
 /// Twice the signed area of a polygon, positive if counter-clockwise.
 double SignedArea2(const std::vector<Vec2>& polygon);
 

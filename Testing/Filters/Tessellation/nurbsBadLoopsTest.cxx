@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole faces with loops that cross, run the wrong way or enclose nothing: their area, and what is
+// said about it.
+#include "ModelBuilder.h"
+#include "Tessellator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using nurbs::FaceMesh;
+using nurbs::FaceStatus;
+using nurbs::Vec2;
+using nurbs::Vec3;
+
+/// The plane z = 0 over [0, 10] x [0, 10] in both spaces; bent into a parabola z = (x / 10)^2 if
+/// asked for.
+nurbs::Surface Sheet(bool bent)
+{
+  nurbs::Surface sheet;
+  sheet.Degree[0] = 2;
+  sheet.Degree[1] = 1;
+  sheet.Count[0] = 3;
+  sheet.Count[1] = 2;
+  sheet.Knots[0] = { 0, 0, 0, 10, 10, 10 };
+  sheet.Knots[1] = { 0, 0, 10, 10 };
+  for (int j = 0; j < 2; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      sheet.Points.push_back(Vec3(5.0 * i, 10.0 * j, bent && i == 2 ? 1.0 : 0.0));
+    }
+  }
+  return sheet;
+}
+
+FaceMesh Tessellate(const std::vector<std::vector<Vec2>>& loops, bool bent)
+{
+  nurbs::ModelBuilder builder;
+  const nurbs::Surface sheet = Sheet(bent);
+  builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
+  for (const std::vector<Vec2>& loop : loops)
+  {
+    builder.BeginLoop();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+    {
+      nurbs::Curve<2> line;
+      line.Knots = { 0, 0, 1, 1 };
+      line.Points = { loop[i], loop[(i + 1) % loop.size()] };
+      line.Weights = { 1, 1 };
+      line.Pack();
+      builder.AddTrimCurve(line.View(), -1, false);
+    }
+  }
+  const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
+  nurbs::TessellatorOptions options;
+  options.Tolerance = 0.01;
+  const nurbs::TessellationResult result =
+    nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options);
+  return result.Meshes.at(0);
+}
+
+/// The area of the triangles in (u, v); all must be turned the same way.
+double ParameterArea(const FaceMesh& mesh)
+{
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+  {
+    const Vec2& a = mesh.UV[mesh.Triangles[t]];
+    const Vec2 b = mesh.UV[mesh.Triangles[t + 1]] - a;
+    const Vec2 c = mesh.UV[mesh.Triangles[t + 2]] - a;
+    const double one = 0.5 * (b[0] * c[1] - b[1] * c[0]);
+    EXPECT_GE(one, -1e-12);
+    area += one;
+  }
+  return area;
+}
+
+std::vector<Vec2> Square(double x, double y, double size, bool clockwise = false)
+{
+  std::vector<Vec2> square = { Vec2(x, y), Vec2(x + size, y), Vec2(x + size, y + size),
+    Vec2(x, y + size) };
+  if (clockwise)
+  {
+    std::reverse(square.begin(), square.end());
+  }
+  return square;
+}
+
+class BadLoops : public testing::TestWithParam<bool>
+{};
+
+TEST_P(BadLoops, LeavesGoodOnesAlone)
+{
+  const FaceMesh mesh =
+    Tessellate({ Square(1, 1, 8), Square(2, 2, 4, true), Square(3, 3, 1) }, GetParam());
+  EXPECT_EQ(mesh.Status, FaceStatus::Ok) << mesh.Message;
+  EXPECT_NEAR(ParameterArea(mesh), 64.0 - 16.0 + 1.0, 1e-9);
+}
+
+TEST_P(BadLoops, TurnsThoseThatRunTheWrongWay)
+{
+  FaceMesh mesh = Tessellate({ Square(1, 1, 8, true) }, GetParam());
+  EXPECT_EQ(mesh.Status, FaceStatus::Repaired);
+  EXPECT_NE(mesh.Message.find("wrong way"), std::string::npos) << mesh.Message;
+  EXPECT_NEAR(ParameterArea(mesh), 64.0, 1e-9);
+  mesh = Tessellate({ Square(1, 1, 8), Square(2, 2, 4) }, GetParam());
+  EXPECT_EQ(mesh.Status, FaceStatus::Repaired);
+  EXPECT_NEAR(ParameterArea(mesh), 48.0, 1e-9);
+}
+
+TEST_P(BadLoops, ResolvesCrossings)
+{
+  // A hole that leaves the outer loop.
+  FaceMesh mesh = Tessellate({ Square(1, 1, 5), Square(4, 4, 5, true) }, GetParam());
+  EXPECT_EQ(mesh.Status, FaceStatus::Repaired);
+  EXPECT_NE(mesh.Message.find("cross"), std::string::npos) << mesh.Message;
+  EXPECT_NEAR(ParameterArea(mesh), 25.0 - 4.0, 1e-6);
+  EXPECT_LE(mesh.CertifiedError, 0.01);
+  // A loop with a small knot at one corner.
+  mesh = Tessellate({ { Vec2(1, 1), Vec2(9, 1), Vec2(9, 9), Vec2(1, 9), Vec2(1, 0.5), Vec2(2, 0.5),
+                      Vec2(0.5, 1.5) } },
+    GetParam());
+  EXPECT_EQ(mesh.Status, FaceStatus::Repaired);
+  EXPECT_NEAR(ParameterArea(mesh), 64.0, 2.0);
+}
+
+TEST_P(BadLoops, SaysThatNothingIsEnclosed)
+{
+  const FaceMesh mesh = Tessellate({ { Vec2(1, 1), Vec2(5, 1), Vec2(9, 1) } }, GetParam());
+  EXPECT_TRUE(mesh.Triangles.empty());
+  EXPECT_FALSE(mesh.Message.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(PlaneAndParabola, BadLoops, testing::Bool(),
+  [](const testing::TestParamInfo<bool>& info) { return info.param ? "Parabola" : "Plane"; });
+
+} // namespace
