@@ -19,7 +19,7 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel,
   CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
-  CGAL::No_constraint_intersection_tag>;
+  CGAL::No_constraint_intersection_requiring_constructions_tag>;
 } // namespace
 
 struct BorderTriangulation::Internals
@@ -27,7 +27,8 @@ struct BorderTriangulation::Internals
   Triangulation Mesh;
   std::vector<Triangulation::Vertex_handle> Vertices;
   std::vector<std::pair<int, int>> Segments;
-  std::set<std::pair<int, int>> Creases;
+  bool HasCreases = false;
+  mutable std::set<std::pair<int, int>> Walls; ///< Edges of segments, if there are creases, too.
   Triangulation::Vertex_handle Last = nullptr; ///< Where the next point is looked for first.
 
   // Where a segment runs through other points it consists of several edges: visits each of them.
@@ -128,9 +129,7 @@ bool BorderTriangulation::AddCrease(int a, int b)
   {
     return false;
   }
-  this->Data->Walk(a, b, [&](auto va, auto vb, auto, int) {
-    this->Data->Creases.insert(std::minmax(va->info(), vb->info()));
-  });
+  this->Data->HasCreases = true;
   return true;
 }
 
@@ -155,15 +154,15 @@ void BorderTriangulation::Triangles(std::vector<std::array<int, 3>>& triangles) 
       stack.push_back(f);
     }
   };
-  std::set<std::pair<int, int>> segments;
+  d.Walls.clear();
   for (const auto& segment : d.Segments)
   {
     d.Walk(segment.first, segment.second, [&](auto va, auto vb, auto face, int index) {
       const bool left = face->vertex(Triangulation::ccw(index)) == va;
       enter(left ? face : face->neighbor(index));
-      if (!d.Creases.empty())
+      if (d.HasCreases)
       {
-        segments.insert(std::minmax(va->info(), vb->info()));
+        d.Walls.insert(std::minmax(va->info(), vb->info()));
       }
     });
   }
@@ -175,13 +174,10 @@ void BorderTriangulation::Triangles(std::vector<std::array<int, 3>>& triangles) 
     triangles.push_back({ f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info() });
     for (int i = 0; i < 3; ++i)
     {
-      bool wall = f->is_constrained(i);
-      if (wall && !d.Creases.empty())
-      {
-        const auto edge = std::minmax(
-          f->vertex(Triangulation::ccw(i))->info(), f->vertex(Triangulation::cw(i))->info());
-        wall = segments.count(edge) > 0 || d.Creases.count(edge) == 0;
-      }
+      const bool wall = f->is_constrained(i) &&
+        (!d.HasCreases ||
+          d.Walls.count(std::minmax(f->vertex(Triangulation::ccw(i))->info(),
+            f->vertex(Triangulation::cw(i))->info())) > 0);
       if (!wall)
       {
         enter(f->neighbor(i));
@@ -196,6 +192,12 @@ bool BorderTriangulation::IsConstrained(int a, int b) const
   int index = 0;
   return this->Data->Mesh.is_edge(this->Data->Vertices[a], this->Data->Vertices[b], face, index) &&
     face->is_constrained(index);
+}
+
+bool BorderTriangulation::IsWall(int a, int b) const
+{
+  return this->IsConstrained(a, b) &&
+    (!this->Data->HasCreases || this->Data->Walls.count(std::minmax(a, b)) > 0);
 }
 
 std::size_t BorderTriangulation::Size() const

@@ -32,6 +32,9 @@ public:
   void Triangles(std::vector<std::array<int, 3>>& triangles) const;
   /// True if the edge (a, b) exists and is a segment or crease.
   bool IsConstrained(int a, int b) const;
+  /// True if the edge (a, b) belongs to a segment; creases may be split by points on them. Valid
+  /// after Triangles.
+  bool IsWall(int a, int b) const;
   std::size_t Size() const;
 
 private:

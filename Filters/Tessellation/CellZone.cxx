@@ -130,7 +130,9 @@ void CellZone::MeasureScale(const std::vector<std::pair<int, int>>& cut)
   }
   if (su > 0.0 && sv > 0.0)
   {
-    this->Factor = Vec2(1.0, sv / su) * (su / std::max(su, sv));
+    // A power of two scales exactly: what does not cross in (u, v) does not cross when scaled.
+    const double ratio = std::exp2(std::round(std::log2(sv / su)));
+    this->Factor = ratio < 1.0 ? Vec2(1.0, ratio) : Vec2(1.0 / ratio, 1.0);
   }
 }
 

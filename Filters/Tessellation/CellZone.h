@@ -34,6 +34,8 @@ public:
   /// @param margin leaves nearer to a trim line than this share of their size count as cut.
   CellZone(const SurfaceTree& tree, const TrimRegion& region, double margin);
 
+  /// Leaves that no trim line comes near and that are inside.
+  const std::vector<int>& WholeLeaves() const { return this->Whole; }
   /// Parameters of all vertices: corners of whole cells, and corners of cut cells well inside.
   const std::vector<Vec2>& Points() const { return this->Vertices; }
   /// Triangulates the whole cells, with the T-vertices on their sides. A cell with T-vertices one of

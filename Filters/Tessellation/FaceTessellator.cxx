@@ -4,6 +4,7 @@
 #include "BorderTriangulation.h"
 #include "BoundaryRepair.h"
 #include "FacetBound.h"
+#include "LoopRepair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,10 @@ public:
   {
     this->MakeLoops();
     if (!this->Requests.empty() || this->Loops.empty())
+    {
+      return this->Finish();
+    }
+    if (!this->CheckLoops())
     {
       return this->Finish();
     }
@@ -254,6 +259,144 @@ private:
     this->Mesh.Message += (this->Mesh.Message.empty() ? "" : "; ") + message;
   }
 
+  // The loops where they are triangulated: in the plane of a planar face, in (u, v) otherwise.
+  Loops2 FlatLoops() const
+  {
+    Loops2 flat(this->Loops.size());
+    Vec3 normal = Vec3::Zero();
+    double distance = 0.0;
+    if (!this->Job.Tree)
+    {
+      this->Job.Bound->IsPlanar(1e300, normal, distance);
+    }
+    const Vec3 e1 = normal.unitOrthogonal();
+    Vec3 e2 = normal.cross(e1);
+    double plane = 0.0;
+    double parameters = 0.0;
+    const Vec3 o = this->Loops[0][0].X;
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      for (std::size_t l = 0; l < this->Loops.size(); ++l)
+      {
+        std::vector<Vec2> uv;
+        flat[l].clear();
+        for (const BoundaryVertex& v : this->Loops[l])
+        {
+          uv.push_back(v.UV);
+          flat[l].push_back(this->Job.Tree ? v.UV : Vec2(e1.dot(v.X - o), e2.dot(v.X - o)));
+        }
+        plane += SignedArea2(flat[l]);
+        parameters += SignedArea2(uv);
+      }
+      if (pass == 0 && (plane < 0.0) == (parameters < 0.0))
+      {
+        break;
+      }
+      e2 = -e2; // The plane's frame turns as (u, v) does.
+    }
+    return flat;
+  }
+
+  // Loops that cross: polylines too coarse ask for finer ones; loops that cross as curves, or run the
+  // wrong way, are repaired. False: the face can't go on.
+  bool CheckLoops()
+  {
+    const Loops2 flat = this->FlatLoops();
+    CrossingFinder finder;
+    const auto& crossings = finder.Find(flat);
+    if (!crossings.empty() && !this->Job.LastPass)
+    {
+      std::vector<const BoundaryVertex*> sides;
+      for (const auto& loop : this->Loops)
+      {
+        for (const BoundaryVertex& v : loop)
+        {
+          sides.push_back(&v);
+        }
+      }
+      for (const auto& pair : crossings)
+      {
+        this->RequestSplit(*sides[pair.first]);
+        this->RequestSplit(*sides[pair.second]);
+      }
+      if (!this->Requests.empty())
+      {
+        return false;
+      }
+    }
+    int outer = 0;
+    for (const auto& loop : flat)
+    {
+      outer += SignedArea2(loop) > 0.0;
+    }
+    if (crossings.empty() && outer == 1)
+    {
+      return true;
+    }
+    return this->Repair(flat);
+  }
+
+  bool Repair(const Loops2& flat)
+  {
+    RepairedLoops repaired;
+    try
+    {
+      repaired = RepairLoops(flat);
+    }
+    catch (const Error& error)
+    {
+      this->Note(FaceStatus::Failed, error.what());
+      return false;
+    }
+    if (!repaired.Changed)
+    {
+      return true;
+    }
+    this->Note(FaceStatus::Repaired, repaired.Message);
+    std::vector<BoundaryVertex> from;
+    std::vector<int> next;
+    for (const auto& loop : this->Loops)
+    {
+      const int first = int(from.size());
+      for (std::size_t k = 0; k < loop.size(); ++k)
+      {
+        from.push_back(loop[k]);
+        next.push_back(first + int((k + 1) % loop.size()));
+      }
+    }
+    std::vector<std::vector<BoundaryVertex>> loops;
+    for (const auto& loop : repaired.Loops)
+    {
+      std::vector<BoundaryVertex> out;
+      for (const RepairedVertex& r : loop)
+      {
+        const BoundaryVertex& a = from[r.Side];
+        const BoundaryVertex& b = from[next[r.Side]];
+        BoundaryVertex v = r.Source >= 0 ? from[r.Source] : a;
+        if (r.Source < 0)
+        {
+          // On the shared chord, so that no gap opens to the neighbour.
+          v.X = a.X + r.S0 * (b.X - a.X);
+          v.UV = this->Job.Tree ? r.P : Vec2(a.UV + r.S0 * (b.UV - a.UV));
+        }
+        v.Edge = a.Edge;
+        v.T0 = a.T0 + r.S0 * (a.T1 - a.T0);
+        v.T1 = a.T0 + r.S1 * (a.T1 - a.T0);
+        out.push_back(v);
+      }
+      if (out.size() >= 3)
+      {
+        loops.push_back(std::move(out));
+      }
+    }
+    this->Loops.swap(loops);
+    if (this->Loops.empty())
+    {
+      this->Note(FaceStatus::Failed, "its loops enclose no area");
+    }
+    return !this->Loops.empty();
+  }
+
   void AddBoundary()
   {
     for (const auto& loop : this->Loops)
@@ -313,35 +456,13 @@ private:
   bool Planar(const TrimRegion& region)
   {
     Vec3 normal = Vec3::Zero();
-    double distance = 0.0;
-    this->Job.Bound->IsPlanar(1e300, normal, distance);
-    this->Flatness = distance;
-    Vec3 e1 = normal.unitOrthogonal();
-    Vec3 e2 = normal.cross(e1);
-    std::vector<Vec2> flat;
-    double area = 0.0;
-    const auto project = [&]() {
-      flat.clear();
-      const Vec3 o = this->Mesh.Points[0];
-      for (const Vec3& x : this->Mesh.Points)
-      {
-        flat.emplace_back(e1.dot(x - o), e2.dot(x - o));
-      }
-      area = 0.0;
-      for (const auto& side : region.Segments())
-      {
-        const Vec2& a = flat[side.first];
-        const Vec2& b = flat[side.second];
-        area += a[0] * b[1] - a[1] * b[0];
-      }
-    };
-    project();
-    if ((area < 0.0) != (region.Area2() < 0.0))
-    {
-      e2 = -e2;
-      project();
-    }
+    this->Job.Bound->IsPlanar(1e300, normal, this->Flatness);
     this->Scale = Vec2(1.0, 1.0);
+    std::vector<Vec2> flat;
+    for (const auto& loop : this->FlatLoops())
+    {
+      flat.insert(flat.end(), loop.begin(), loop.end());
+    }
     return this->FillBorder(region, flat, {}, {});
   }
 
@@ -351,6 +472,11 @@ private:
   {
     CellZone zone(*this->Job.Tree, region, CutMargin);
     this->Scale = zone.Scale();
+    this->IsWholeLeaf.assign(this->Job.Tree->Leaves().size(), 0);
+    for (int k : zone.WholeLeaves())
+    {
+      this->IsWholeLeaf[k] = 1;
+    }
     const int first = int(this->Mesh.UV.size());
     for (const Vec2& uv : zone.Points())
     {
@@ -406,18 +532,13 @@ private:
     {
       idOf[k] = add(k, flat[k]);
     }
-    bool crossing = false;
     for (const auto& side : region.Segments())
     {
       if (!border.AddSegment(idOf[side.first], idOf[side.second]))
       {
-        crossing = true;
-        this->RequestSplit(side.first);
+        this->Note(FaceStatus::Failed, "its loops cross and could not be repaired");
+        return false;
       }
-    }
-    if (crossing && this->RequestAround(region))
-    {
-      return false;
     }
     for (const auto& side : sides)
     {
@@ -440,61 +561,39 @@ private:
     return true;
   }
 
-  void RequestSplit(int segment)
+  void RequestSplit(const BoundaryVertex& v)
   {
-    const BoundaryVertex& v = *this->Segments[segment];
     if (v.Edge >= 0 && !this->Job.LastPass && !(*this->Job.Edges)[v.Edge].Degenerate)
     {
       this->Requests.push_back({ v.Edge, 0.5 * (v.T0 + v.T1) });
     }
   }
 
-  // Polylines that cross although their curves do not are too coarse: finer ones where they meet.
-  bool RequestAround(const TrimRegion& region)
-  {
-    const std::vector<Vec2>& p = region.Points();
-    const auto& sides = region.Segments();
-    const std::size_t asked = this->Requests.size();
-    if (this->Job.LastPass)
-    {
-      this->Note(
-        FaceStatus::Repaired, "its loops cross; the crossing parts are joined as they are");
-      return false;
-    }
-    for (std::size_t s = 0; s < asked; ++s)
-    {
-      const SplitRequest request = this->Requests[s];
-      for (std::size_t k = 0; k < sides.size(); ++k)
-      {
-        const BoundaryVertex& v = *this->Segments[sides[k].first];
-        if (v.Edge != request.Edge || 0.5 * (v.T0 + v.T1) != request.T)
-        {
-          continue;
-        }
-        const Vec2& a = p[sides[k].first];
-        const Vec2& b = p[sides[k].second];
-        ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
-          std::max(a[1], b[1]) };
-        for (const auto& other : sides)
-        {
-          if (SegmentTouchesBox(p[other.first], p[other.second], box))
-          {
-            this->RequestSplit(other.first);
-          }
-        }
-      }
-    }
-    return !this->Requests.empty();
-  }
-
   // Vertices along every crease, joined where the face goes on between them.
-  void AddCreases(
-    BorderTriangulation& border, const std::vector<int>& vertexOf, const TrimRegion& region)
+  void AddCreases(BorderTriangulation& border, std::vector<int>& vertexOf, const TrimRegion& region)
   {
     if (!this->Job.Tree)
     {
       return;
     }
+    const std::size_t before = this->Mesh.UV.size();
+    for (double u : this->Job.Tree->Creases(0))
+    {
+      for (double v : this->Job.Tree->Creases(1))
+      {
+        const Vec2 p(u, v);
+        if (region.Inside(p) && !this->IsInWholeCell(p))
+        {
+          const int id = border.AddPoint(p.cwiseProduct(this->Scale));
+          if (id == int(vertexOf.size()))
+          {
+            vertexOf.push_back(int(this->Mesh.UV.size()));
+            this->Mesh.UV.push_back(p);
+          }
+        }
+      }
+    }
+    this->EvaluateFrom(before, false);
     for (int d = 0; d < 2; ++d)
     {
       for (double crease : this->Job.Tree->Creases(d))
@@ -514,13 +613,24 @@ private:
           Vec2 middle;
           middle[d] = crease;
           middle[1 - d] = 0.5 * (on[k].first + on[k + 1].first);
-          if (!border.IsConstrained(on[k].second, on[k + 1].second) && region.Inside(middle))
+          if (!border.IsConstrained(on[k].second, on[k + 1].second) && region.Inside(middle) &&
+            !this->IsInWholeCell(middle) &&
+            !region.Crosses(d, crease, on[k].first, on[k + 1].first))
           {
             border.AddCrease(on[k].second, on[k + 1].second);
           }
         }
       }
     }
+  }
+
+  // True if all cells around p are whole: they have their own vertices.
+  bool IsInWholeCell(const Vec2& p) const
+  {
+    bool whole = true;
+    this->Job.Tree->Query(
+      { p[0], p[0], p[1], p[1] }, [&](int k) { whole = whole && this->IsWholeLeaf[k]; });
+    return whole;
   }
 
   // Adds vertices to the border zone until every triangle is good enough.
@@ -649,7 +759,7 @@ private:
         const double length = facet.HasPlane()
           ? facet.EdgeHeight(i)
           : (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseProduct(this->Scale).norm();
-        if (length > longest && !border.IsConstrained(idOf[a], idOf[b]))
+        if (length > longest && !border.IsWall(idOf[a], idOf[b]))
         {
           longest = length;
           edge = std::minmax(a, b);
@@ -695,7 +805,7 @@ private:
     {
       if (this->IsSegment(t[i], t[(i + 1) % 3]))
       {
-        this->RequestSplit(t[i]);
+        this->RequestSplit(*this->Segments[t[i]]);
       }
     }
     return this->Requests.size() > before;
@@ -722,7 +832,7 @@ private:
       const double length = d.squaredNorm();
       if (std::abs(d[0] * e[1] - d[1] * e[0]) < 0.2 * length)
       {
-        this->RequestSplit(a);
+        this->RequestSplit(*this->Segments[a]);
         asked = true;
       }
     }
@@ -733,7 +843,7 @@ private:
 
   double Limit() const
   {
-    return this->Job.Tolerance - std::min(this->Gap, 0.5 * this->Job.Tolerance);
+    return this->Job.Tolerance - std::min(this->Gap, 0.75 * this->Job.Tolerance);
   }
 
   bool IsPole(int vertex) const
@@ -1040,6 +1150,7 @@ private:
   /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside
   /// that leaf; NoLeaf: anywhere.
   std::vector<int> Leaf;
+  std::vector<char> IsWholeLeaf;
   double Gap = 0.0;
   double Flatness = 0.0;
 };

@@ -86,17 +86,23 @@ bool TrimRegion::Inside(const Vec2& p) const
   return inside;
 }
 
-double TrimRegion::Area2() const
+bool TrimRegion::Crosses(int dir, double value, double from, double to) const
 {
-  double area = 0.0;
-  const Vec2 o = this->Corners.empty() ? Vec2(Vec2::Zero()) : this->Corners.front();
   for (const auto& side : this->Sides)
   {
-    const Vec2 a = this->Corners[side.first] - o;
-    const Vec2 b = this->Corners[side.second] - o;
-    area += a[0] * b[1] - a[1] * b[0];
+    const Vec2& a = this->Corners[side.first];
+    const Vec2& b = this->Corners[side.second];
+    if ((a[dir] < value && b[dir] > value) || (a[dir] > value && b[dir] < value))
+    {
+      const double t = (value - a[dir]) / (b[dir] - a[dir]);
+      const double at = a[1 - dir] + t * (b[1 - dir] - a[1 - dir]);
+      if (at > from && at < to)
+      {
+        return true;
+      }
+    }
   }
-  return area;
+  return false;
 }
 
 std::vector<std::pair<int, int>> TrimRegion::CutLeaves(const SurfaceTree& tree, double margin) const

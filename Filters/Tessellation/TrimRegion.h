@@ -27,12 +27,13 @@ public:
   /// True if p lies inside (even-odd); p must not be on a segment.
   bool Inside(const Vec2& p) const;
 
+  /// True if a segment crosses, from one side to the other, the line (u or v, by `dir`) = `value`
+  /// strictly between `from` and `to`.
+  bool Crosses(int dir, double value, double from, double to) const;
+
   /// Segments as pairs of indices into Points().
   const std::vector<std::pair<int, int>>& Segments() const { return this->Sides; }
   const std::vector<Vec2>& Points() const { return this->Corners; }
-  /// Twice the signed area.
-  double Area2() const;
-
   /// Which segments come near which leaf: (leaf, segment) pairs, sorted. "Near" means within
   /// `margin` times the leaf's own size.
   std::vector<std::pair<int, int>> CutLeaves(const SurfaceTree& tree, double margin) const;
