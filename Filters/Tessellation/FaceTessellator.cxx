@@ -341,7 +341,7 @@ private:
     RepairedLoops repaired;
     try
     {
-      repaired = RepairLoops(flat);
+      repaired = nurbs::RepairLoops(flat);
     }
     catch (const Error& error)
     {
