@@ -351,18 +351,19 @@ public:
         {
           continue;
         }
-        this->Given.push_back({ a, b.P });
+        this->Given.push_back({ a, b.P, this->Direction.size() });
         const Point p(a.P[0], a.P[1]);
         const Point q(b.P[0], b.P[1]);
         this->Vertices.emplace(p, a);
         curves.emplace_back(Segment(p, q), static_cast<int>(this->Given.size()) - 1);
       }
+      this->Direction.push_back(SignedArea2(Positions({ loop })[0]) > 0.0 ? 1 : -1);
     }
     CGAL::insert(this->Plane, curves.begin(), curves.end());
     this->Wind();
   }
 
-  // The boundary of the region with positive winding number, or by the even-odd rule.
+  // The boundary of the region that the loops enclose (IsInside), or of that by the even-odd rule.
   LoopsR Boundary(bool evenOdd) const
   {
     LoopsR loops;
@@ -403,12 +404,20 @@ private:
   {
     RepairedVertex Start;
     Vec2 End;
+    std::size_t Loop;
   };
 
+  // What a loop winds around at all is its own, lobes that run the other way included; clockwise
+  // loops take away from the others.
   bool IsInside(FaceHandle face, bool evenOdd) const
   {
-    const int winding = this->Winding.at(&*face);
-    return evenOdd ? winding % 2 != 0 : winding > 0;
+    int count = 0;
+    const std::vector<int>& winding = this->Winding.at(&*face);
+    for (std::size_t loop = 0; loop < winding.size(); ++loop)
+    {
+      count += evenOdd ? winding[loop] : (winding[loop] != 0 ? this->Direction[loop] : 0);
+    }
+    return evenOdd ? count % 2 != 0 : count > 0;
   }
 
   bool IsBoundary(Halfedge h, bool evenOdd) const
@@ -425,13 +434,13 @@ private:
     return up == sideUp ? 1 : -1;
   }
 
-  // Winding numbers from the outside inwards: the face on the left of a side has one more than the
-  // face on its right.
+  // Winding numbers from the outside inwards: the face on the left of a loop's side has one more than
+  // the face on its right.
   void Wind()
   {
     std::queue<FaceHandle> queue;
     queue.push(this->Plane.unbounded_face());
-    this->Winding[&*this->Plane.unbounded_face()] = 0;
+    this->Winding[&*this->Plane.unbounded_face()].assign(this->Direction.size(), 0);
     while (!queue.empty())
     {
       const FaceHandle face = queue.front();
@@ -440,15 +449,15 @@ private:
         auto h = first;
         do
         {
-          int step = 0; // from this face to the one across h
+          std::vector<int> across = this->Winding[&*face];
           for (auto id = h->curve().data().begin(); id != h->curve().data().end(); ++id)
           {
-            step -= this->Sense(h, this->Given[*id]);
+            across[this->Given[*id].Loop] -= this->Sense(h, this->Given[*id]);
           }
-          const FaceHandle across = h->twin()->face();
-          if (this->Winding.emplace(&*across, this->Winding[&*face] + step).second)
+          const FaceHandle other = h->twin()->face();
+          if (this->Winding.emplace(&*other, std::move(across)).second)
           {
-            queue.push(across);
+            queue.push(other);
           }
         } while (++h != first);
       };
@@ -495,7 +504,8 @@ private:
   std::vector<GivenSide> Given;
   std::map<Point, RepairedVertex> Vertices;
   Arrangement Plane;
-  std::map<const void*, int> Winding;
+  std::map<const void*, std::vector<int>> Winding; ///< Of each loop around a face.
+  std::vector<int> Direction;                      ///< Of each loop: 1 if counter-clockwise.
 };
 
 double TotalArea(const LoopsR& loops)
@@ -559,7 +569,7 @@ RepairedLoops RepairLoops(const Loops2& loops)
     {
       Say(out,
         "loops cross in " + Count(crossings, "pair of sides", "pairs of sides") +
-          (positive ? ": the region they wind around is kept"
+          (positive ? ": what they enclose is kept"
                     : ": what is inside by the even-odd rule is kept"));
     }
     DropRepeated(out.Loops);

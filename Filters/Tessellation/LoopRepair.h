@@ -70,10 +70,11 @@ struct RepairedLoops
 ///   vertices on a line).
 /// - If no sides cross, a loop inside an even number of others must be counter-clockwise and one
 ///   inside an odd number clockwise: those that are not are turned round.
-/// - If sides cross, the region where the loops' winding number is positive is kept; if there is
-///   none, or less than half of what is inside by the even-odd rule, the latter. Its boundary is
-///   returned as loops that may touch in vertices but not cross. Sides where the region lies on both
-///   sides vanish.
+/// - If sides cross, what a loop winds around at all is its own (lobes that run the other way
+///   included, so that a narrow face whose sides swap keeps its area and its edges), and clockwise
+///   loops take away from counter-clockwise ones. If nothing remains, or less than half of what is
+///   inside by the even-odd rule, the latter is kept. The boundary is returned as loops that may
+///   touch in vertices but not cross. Sides where the region lies on both sides vanish.
 ///
 /// Vertices keep their position bit for bit; crossings are rounded to double, after which the result
 /// is checked and, if rounding made sides cross again, repaired again.
