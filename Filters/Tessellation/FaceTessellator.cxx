@@ -2,7 +2,6 @@
 #include "FaceTessellator.h"
 
 #include "BorderTriangulation.h"
-#include "BoundaryRepair.h"
 #include "FacetBound.h"
 #include "LoopRepair.h"
 
@@ -76,30 +75,9 @@ private:
       }
       this->Loops.push_back(std::move(loop));
     }
-    if (this->Requests.empty())
-    {
-      this->RepairLoops();
-    }
     if (this->Loops.empty() && this->Requests.empty())
     {
       this->Note(FaceStatus::Failed, "its loops enclose no area");
-    }
-  }
-
-  void RepairLoops()
-  {
-    std::string repair;
-    try
-    {
-      repair = RepairBoundary(this->Loops, this->Job.LastPass);
-    }
-    catch (const Error& problem)
-    {
-      repair = problem.what(); // the loops stay as they are
-    }
-    if (!repair.empty())
-    {
-      this->Note(FaceStatus::Repaired, repair);
     }
   }
 
@@ -325,11 +303,14 @@ private:
       }
     }
     int outer = 0;
+    double largest = 0.0;
     for (const auto& loop : flat)
     {
-      outer += SignedArea2(loop) > 0.0;
+      const double area = SignedArea2(loop);
+      outer += area > 0.0;
+      largest = std::abs(area) > std::abs(largest) ? area : largest;
     }
-    if (crossings.empty() && outer == 1)
+    if (crossings.empty() && outer == 1 && largest > 0.0)
     {
       return true;
     }
@@ -341,7 +322,7 @@ private:
     RepairedLoops repaired;
     try
     {
-      repaired = nurbs::RepairLoops(flat);
+      repaired = RepairLoops(flat);
     }
     catch (const Error& error)
     {
@@ -637,6 +618,7 @@ private:
   void Refine(BorderTriangulation& border, std::vector<int>& vertexOf)
   {
     const std::size_t base = this->Mesh.Triangles.size();
+    const std::size_t budget = this->Mesh.UV.size() + 3 * vertexOf.size() + 1000;
     std::vector<std::array<int, 3>> triangles;
     for (int pass = 0;; ++pass)
     {
@@ -656,7 +638,7 @@ private:
         this->Mesh.Triangles.insert(this->Mesh.Triangles.end(), t.begin(), t.end());
         this->Leaf.push_back(NoLeaf);
       }
-      if (!this->Job.Tree || pass == 16)
+      if (!this->Job.Tree || pass == 16 || this->Mesh.UV.size() > budget)
       {
         return;
       }
@@ -739,7 +721,7 @@ private:
     }
     for (const auto& t : triangles)
     {
-      if (this->IsCollapsed(t.data()))
+      if (this->IsCollapsed(t.data()) || this->IsTiny(t.data()))
       {
         continue;
       }
@@ -789,6 +771,18 @@ private:
         this->Mesh.UV.push_back(p);
       }
     }
+  }
+
+  // Too small to gain from a split: the tolerance, or the gap of its boundary vertices, is as large.
+  bool IsTiny(const int* t) const
+  {
+    double longest = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      longest =
+        std::max(longest, (this->Mesh.Points[t[(i + 1) % 3]] - this->Mesh.Points[t[i]]).norm());
+    }
+    return longest < std::max(0.5 * this->Job.Tolerance, 16.0 * this->Gap);
   }
 
   bool IsFolded(const int* t, const Vec3& n) const
@@ -841,9 +835,12 @@ private:
 
   // --- Step 4: certification --------------------------------------------------------------------
 
+  // Of a triangle's own error. A gap in the model that is near the tolerance or over it can't be
+  // made up for by smaller triangles.
   double Limit() const
   {
-    return this->Job.Tolerance - std::min(this->Gap, 0.75 * this->Job.Tolerance);
+    const double tolerance = this->Job.Tolerance;
+    return this->Gap < 0.5 * tolerance ? tolerance - this->Gap : tolerance;
   }
 
   bool IsPole(int vertex) const

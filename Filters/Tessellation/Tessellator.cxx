@@ -252,6 +252,25 @@ private:
       });
   }
 
+  // One face that can't be done must not take the others with it.
+  static FaceMesh TryFace(
+    const FaceJob& job, std::vector<SplitRequest>& requests, std::vector<int>& weak)
+  {
+    try
+    {
+      return TessellateFace(job, requests, weak);
+    }
+    catch (const std::exception& problem)
+    {
+      requests.clear();
+      weak.clear();
+      FaceMesh failed;
+      failed.Status = FaceStatus::Failed;
+      failed.Message = problem.what();
+      return failed;
+    }
+  }
+
   // Triangulates the faces of `todo`; on return `todo` has those that must be done again, and
   // `edges` the edges that must get more points first.
   void TriangulateFaces(std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
@@ -272,7 +291,7 @@ private:
         job.States = &this->States[f];
         job.LastPass = last;
         job.Parallel = parallel;
-        this->Result.Meshes[f] = TessellateFace(job, requests[f], weak[f]);
+        this->Result.Meshes[f] = this->TryFace(job, requests[f], weak[f]);
       });
     if (this->Aborted)
     {
