@@ -102,7 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
   nurbs::TessellatorOptions options;
   options.Tolerance = Tolerance;
-  options.MaximumFaceTriangles = 20000;
+  options.MaximumFaceTriangles = 2000;
   options.Method = bytes.PickValueInArray({ nurbs::SubdivisionMethod::KdTree,
     nurbs::SubdivisionMethod::QuadTree, nurbs::SubdivisionMethod::Binary });
   options.Curves.Simplify = bytes.ConsumeBool();
