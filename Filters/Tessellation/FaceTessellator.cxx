@@ -96,12 +96,13 @@ private:
     for (int k = 0; k < n; ++k)
     {
       const int i = curve.Reversed ? n - 1 - k : k;
-      part[k].UV = this->Clamp(Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i])));
+      part[k].UV = Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i]));
       part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
       part[k].Edge = curve.Edge;
       part[k].T0 = ts[i];
       part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
     }
+    this->ClampPart(part);
     if (!loop.empty() && this->SameSpot(loop.back().UV, part.front().UV))
     {
       loop.pop_back();
@@ -142,7 +143,26 @@ private:
     ts.insert(ts.begin() + 1, inner.begin(), inner.end());
   }
 
-  Vec2 Clamp(const Vec2& uv) const
+  // Puts vertices inside the domain, and those beside a crease on it unless others are as near.
+  void ClampPart(std::vector<BoundaryVertex>& part) const
+  {
+    std::vector<Vec2> raw;
+    for (const BoundaryVertex& v : part)
+    {
+      raw.push_back(v.UV);
+    }
+    const auto apart = [&](std::size_t i, std::size_t j) {
+      const Vec2 d = (raw[i] - raw[j]).cwiseAbs();
+      return d[0] > 4.0 * this->Job.Snap[0] || d[1] > 4.0 * this->Job.Snap[1];
+    };
+    for (std::size_t k = 0; k < part.size(); ++k)
+    {
+      const bool free = (k == 0 || apart(k, k - 1)) && (k + 1 == part.size() || apart(k, k + 1));
+      part[k].UV = this->Clamp(raw[k], free);
+    }
+  }
+
+  Vec2 Clamp(const Vec2& uv, bool snap) const
   {
     Vec2 p = uv;
     for (int d = 0; d < 2; ++d)
@@ -150,15 +170,20 @@ private:
       const Interval domain = this->TheFace.Geometry.Domain(d);
       const double eps = 1e-10 * domain.Length();
       p[d] = p[d] < domain.Min + eps ? domain.Min : p[d] > domain.Max - eps ? domain.Max : p[d];
-      if (this->Job.Tree)
+      if (!this->Job.Tree)
       {
-        for (double crease : this->Job.Tree->Creases(d))
-        {
-          if (std::abs(p[d] - crease) < 3e3 * eps)
-          {
-            p[d] = crease;
-          }
-        }
+        continue;
+      }
+      const double near = std::max(snap ? this->Job.Snap[d] : 0.0, 3e3 * eps);
+      for (double crease : this->Job.Tree->Creases(d))
+      {
+        p[d] = std::abs(p[d] - crease) <= near ? crease : p[d];
+      }
+      // The tree may begin at a knot a little inside the boundary.
+      const std::vector<double>& lines = this->Job.Tree->Lines(d);
+      if (snap)
+      {
+        p[d] = Interval{ lines.front(), lines.back() }.Clamp(p[d]);
       }
     }
     return p;
@@ -840,7 +865,7 @@ private:
   double Limit() const
   {
     const double tolerance = this->Job.Tolerance;
-    return this->Gap < 0.5 * tolerance ? tolerance - this->Gap : tolerance;
+    return this->Gap < 0.7 * tolerance ? tolerance - this->Gap : tolerance;
   }
 
   bool IsPole(int vertex) const

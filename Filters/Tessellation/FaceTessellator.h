@@ -31,6 +31,7 @@ struct FaceJob
   const std::vector<EdgePolyline>* Edges = nullptr;
   const TessellatorOptions* Options = nullptr;
   double Tolerance = 0.0;
+  Vec2 Snap = Vec2(0.0, 0.0); ///< Boundary vertices so near to a crease (in u, v) are put on it.
   std::vector<LeafState>* States = nullptr; ///< Kept from pass to pass; see CellZone.
   bool LastPass = false;                    ///< No more requests: repair or report instead.
   ParallelFor Parallel = SerialFor;

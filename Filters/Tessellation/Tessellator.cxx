@@ -36,6 +36,7 @@ public:
     this->Trees.resize(faces);
     this->Contexts.resize(faces);
     this->States.resize(faces);
+    this->Snaps.assign(faces, Vec2(0.0, 0.0));
     this->FindUses();
     this->OrderFaces();
 
@@ -157,8 +158,9 @@ private:
   }
 
   // The part of the surface's domain that the loops use.
-  ParameterBox UsedDomain(const Face& face) const
+  ParameterBox UsedDomain(std::int64_t f) const
   {
+    const Face& face = this->Data.Faces[f];
     const Interval u = face.Geometry.Domain(0);
     const Interval v = face.Geometry.Domain(1);
     Box2 box;
@@ -193,6 +195,15 @@ private:
     };
     widen(used.U0, used.U1, u);
     widen(used.V0, used.V1, v);
+    const auto snap = [&](double& low, double& high, int d) {
+      for (const Knot& knot : DistinctKnots(face.Geometry.Knots[d], face.Geometry.Degree[d]))
+      {
+        low = std::abs(low - knot.Value) <= this->Snaps[f][d] ? knot.Value : low;
+        high = std::abs(high - knot.Value) <= this->Snaps[f][d] ? knot.Value : high;
+      }
+    };
+    snap(used.U0, used.U1, 0);
+    snap(used.V0, used.V1, 1);
     return used;
   }
 
@@ -206,6 +217,27 @@ private:
     goal.MaximumAngle = this->Options.MaximumAngle;
     goal.MaximumLeaves = std::max<std::int64_t>(1, this->Options.MaximumFaceTriangles / 2);
     return goal;
+  }
+
+  // Parameter distances that are a twentieth of the tolerance on the surface: trim lines beside a
+  // crease or a knot line leave strips that narrow, which no triangle should have to fit.
+  static Vec2 SnapDistance(const SurfaceView& surface, double tolerance)
+  {
+    const Interval u = surface.Domain(0);
+    const Interval v = surface.Domain(1);
+    double su = 0.0;
+    double sv = 0.0;
+    for (int k = 0; k < 9; ++k)
+    {
+      const SurfaceDerivatives d = EvaluateDerivatives(surface,
+        u.Min + u.Length() * (0.1 + 0.4 * (k % 3)), v.Min + v.Length() * (0.1 + 0.4 * (k / 3)), 1);
+      su = std::max(su, d.Su.norm());
+      sv = std::max(sv, d.Sv.norm());
+    }
+    const auto distance = [&](double speed, const Interval& domain) {
+      return std::min(speed > 0.0 ? 0.05 * tolerance / speed : 0.0, 1e-3 * domain.Length());
+    };
+    return Vec2(distance(su, u), distance(sv, v));
   }
 
   void PrepareFace(std::int64_t f, const ParallelFor& parallel)
@@ -224,8 +256,9 @@ private:
       context.Tree = nullptr;
       return;
     }
+    this->Snaps[f] = this->SnapDistance(face.Geometry, tolerance);
     this->Trees[f].reset(new SurfaceTree);
-    this->Trees[f]->Build(*context.Bound, this->UsedDomain(face), this->GoalOf(f), parallel);
+    this->Trees[f]->Build(*context.Bound, this->UsedDomain(f), this->GoalOf(f), parallel);
     context.Tree = this->Trees[f].get();
   }
 
@@ -288,6 +321,7 @@ private:
         job.Edges = &this->Polylines;
         job.Options = &this->Options;
         job.Tolerance = this->ToleranceOf(f);
+        job.Snap = this->Snaps[f];
         job.States = &this->States[f];
         job.LastPass = last;
         job.Parallel = parallel;
@@ -411,6 +445,7 @@ private:
   std::vector<std::unique_ptr<SurfaceTree>> Trees;
   std::vector<FaceContext> Contexts;
   std::vector<std::vector<LeafState>> States;
+  std::vector<Vec2> Snaps;
   std::vector<EdgePolyline> Polylines;
   std::vector<std::vector<double>> Extra;
   TessellationResult Result;
