@@ -45,8 +45,8 @@ struct Face
 /// A 3D curve that one or more faces share.
 struct Edge
 {
-  CurveView<3> Geometry;   ///< Degree 0 with one point: a degenerate edge (pole). Count 0: unknown.
-  double Tolerance = 0.0;  ///< Largest distance of the faces' own lifted trim curves from it.
+  CurveView<3> Geometry;  ///< Degree 0 with one point: a degenerate edge (pole). Count 0: unknown.
+  double Tolerance = 0.0; ///< Largest distance of the faces' own lifted trim curves from it.
   std::int64_t Vertex[2] = { -1, -1 }; ///< Start and end in Model::Vertices; -1: unknown.
 };
 

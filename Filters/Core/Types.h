@@ -39,13 +39,11 @@ public:
   ArrayView(const T* data, std::size_t size)
     : First(data)
     , Count(size)
-  {
-  }
+  {}
   ArrayView(const std::vector<T>& values)
     : First(values.data())
     , Count(values.size())
-  {
-  }
+  {}
   const T& operator[](std::size_t i) const { return this->First[i]; }
   const T* begin() const { return this->First; }
   const T* end() const { return this->First + this->Count; }
@@ -68,7 +66,10 @@ struct Interval
   double Min = 0.0;
   double Max = 1.0;
   double Length() const { return this->Max - this->Min; }
-  double Clamp(double t) const { return t < this->Min ? this->Min : (t > this->Max ? this->Max : t); }
+  double Clamp(double t) const
+  {
+    return t < this->Min ? this->Min : (t > this->Max ? this->Max : t);
+  }
 };
 
 /// What a kernel throws when its input breaks a precondition; the text names the reason.
