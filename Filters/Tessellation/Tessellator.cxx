@@ -373,7 +373,7 @@ private:
     if (this->Contexts[f].Tree && this->Contexts[f].Tree->IsCapped())
     {
       mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
-      mesh.Message += "the triangle limit was reached";
+      this->Say(mesh, "the triangle limit was reached");
       return false;
     }
     if (mesh.CertifiedError <= tolerance || this->Options.Error == ErrorMode::Estimated)
@@ -390,10 +390,16 @@ private:
       return true;
     }
     mesh.Status = std::max(mesh.Status, FaceStatus::Capped);
-    mesh.Message += "its error is certified to " + std::to_string(mesh.CertifiedError / tolerance) +
-      " tolerances only; edges are up to " + std::to_string(mesh.ModelGap / tolerance) +
-      " tolerances away from it in the model itself";
+    this->Say(mesh,
+      "its error is certified to " + std::to_string(mesh.CertifiedError / tolerance) +
+        " tolerances only; its edges are up to " + std::to_string(mesh.ModelGap / tolerance) +
+        " tolerances away from it in the model itself");
     return false;
+  }
+
+  static void Say(FaceMesh& mesh, const std::string& text)
+  {
+    mesh.Message += (mesh.Message.empty() ? "" : "; ") + text;
   }
 
   void CollectPolylines()

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FaceLoops.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+FaceLoops::FaceLoops(const FaceJob& job, std::vector<SplitRequest>& requests)
+  : Job(job)
+  , Data(*job.Data)
+  , TheFace(job.Data->Faces[job.Face])
+  , Requests(requests)
+{}
+
+void FaceLoops::MakeLoops()
+{
+  const std::int64_t end = this->TheFace.FirstLoop + this->TheFace.LoopCount;
+  for (std::int64_t l = this->TheFace.FirstLoop; l < end; ++l)
+  {
+    std::vector<BoundaryVertex> loop;
+    const TrimLoop& source = this->Data.Loops[l];
+    for (std::int64_t k = 0; k < source.CurveCount; ++k)
+    {
+      this->AppendCurve(source.FirstCurve + k, loop);
+    }
+    this->CloseLoop(loop);
+    if (this->IsLoopThin(loop))
+    {
+      this->RequestMiddles(loop);
+      if (this->Job.LastPass)
+      {
+        this->Note(FaceStatus::Repaired, "a loop without area was dropped");
+      }
+      continue;
+    }
+    this->Loops.push_back(std::move(loop));
+  }
+  if (this->Loops.empty() && this->Requests.empty())
+  {
+    this->Note(FaceStatus::Failed, "its loops enclose no area");
+  }
+}
+
+void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loop)
+{
+  const TrimCurve& curve = this->Data.TrimCurves[index];
+  const EdgePolyline& edge = (*this->Job.Edges)[curve.Edge];
+  const Interval domain{ edge.Parameters.front(), edge.Parameters.back() };
+  std::vector<double> ts = edge.Parameters;
+  if (edge.Degenerate)
+  {
+    this->PoleParameters(curve, domain, ts);
+  }
+  const int n = int(ts.size());
+  std::vector<BoundaryVertex> part(n);
+  for (int k = 0; k < n; ++k)
+  {
+    const int i = curve.Reversed ? n - 1 - k : k;
+    part[k].UV = Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i]));
+    part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
+    part[k].Edge = curve.Edge;
+    part[k].T0 = ts[i];
+    part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
+  }
+  this->ClampPart(part);
+  if (!loop.empty() && this->SameSpot(loop.back().UV, part.front().UV))
+  {
+    loop.pop_back();
+  }
+  else if (!loop.empty())
+  {
+    loop.back().Edge = -1; // A jump along a pole, or a gap that is closed by a straight segment.
+    this->NoteGap(loop.back(), part.front());
+  }
+  loop.insert(loop.end(), part.begin(), part.end());
+}
+
+// A degenerate side has one point, but as many parameters as the cells there have corners.
+void FaceLoops::PoleParameters(
+  const TrimCurve& curve, const Interval& domain, std::vector<double>& ts)
+{
+  if (!this->Job.Tree)
+  {
+    return;
+  }
+  const Vec2 a = Evaluate(curve.Geometry, TrimParameter(curve, domain, domain.Min));
+  const Vec2 b = Evaluate(curve.Geometry, TrimParameter(curve, domain, domain.Max));
+  const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
+  std::vector<double> inner;
+  const auto add = [&](double line) {
+    const double t = (line - a[d]) / (b[d] - a[d]);
+    if (t > 1e-6 && t < 1.0 - 1e-6)
+    {
+      inner.push_back(domain.Min + t * domain.Length());
+    }
+  };
+  this->Job.Tree->QuerySegment(a, b, 1e-9, [&](int k) {
+    const ParameterBox& box = this->Job.Tree->Leaves()[k].Box;
+    add(d == 0 ? box.U0 : box.V0);
+    add(d == 0 ? box.U1 : box.V1);
+  });
+  std::sort(inner.begin(), inner.end());
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  ts.insert(ts.begin() + 1, inner.begin(), inner.end());
+}
+
+// Puts vertices inside the domain, and those beside a crease on it unless others are as near.
+void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
+{
+  std::vector<Vec2> raw;
+  for (const BoundaryVertex& v : part)
+  {
+    raw.push_back(v.UV);
+  }
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const Vec2 d = (raw[i] - raw[j]).cwiseAbs();
+    return d[0] > 4.0 * this->Job.Snap[0] || d[1] > 4.0 * this->Job.Snap[1];
+  };
+  for (std::size_t k = 0; k < part.size(); ++k)
+  {
+    const bool free = (k == 0 || apart(k, k - 1)) && (k + 1 == part.size() || apart(k, k + 1));
+    part[k].UV = this->Clamp(raw[k], free);
+  }
+}
+
+Vec2 FaceLoops::Clamp(const Vec2& uv, bool snap) const
+{
+  Vec2 p = uv;
+  for (int d = 0; d < 2; ++d)
+  {
+    const Interval domain = this->TheFace.Geometry.Domain(d);
+    const double eps = 1e-10 * domain.Length();
+    p[d] = p[d] < domain.Min + eps ? domain.Min : p[d] > domain.Max - eps ? domain.Max : p[d];
+    if (!this->Job.Tree)
+    {
+      continue;
+    }
+    const double near = std::max(snap ? this->Job.Snap[d] : 0.0, 3e3 * eps);
+    for (double crease : this->Job.Tree->Creases(d))
+    {
+      p[d] = std::abs(p[d] - crease) <= near ? crease : p[d];
+    }
+    // The tree may begin at a knot a little inside the boundary.
+    const std::vector<double>& lines = this->Job.Tree->Lines(d);
+    if (snap)
+    {
+      p[d] = Interval{ lines.front(), lines.back() }.Clamp(p[d]);
+    }
+  }
+  return p;
+}
+
+bool FaceLoops::SameSpot(const Vec2& a, const Vec2& b) const
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  return std::abs(a[0] - b[0]) <= 1e-5 * s.Domain(0).Length() &&
+    std::abs(a[1] - b[1]) <= 1e-5 * s.Domain(1).Length();
+}
+
+void FaceLoops::NoteGap(const BoundaryVertex& a, const BoundaryVertex& b)
+{
+  const double gap = (a.X - b.X).norm();
+  if (gap > this->Job.Tolerance)
+  {
+    this->Note(FaceStatus::Repaired, "a loop's gap of " + std::to_string(gap) + " was closed");
+  }
+}
+
+void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
+{
+  if (loop.size() > 1 && this->SameSpot(loop.back().UV, loop.front().UV))
+  {
+    loop.pop_back();
+  }
+  std::vector<BoundaryVertex> distinct;
+  for (const BoundaryVertex& v : loop)
+  {
+    if (distinct.empty() || distinct.back().UV != v.UV)
+    {
+      distinct.push_back(v);
+    }
+  }
+  while (distinct.size() > 1 && distinct.back().UV == distinct.front().UV)
+  {
+    distinct.pop_back();
+  }
+  loop.swap(distinct);
+}
+
+// A loop whose polygon collapsed although its curves enclose something.
+bool FaceLoops::IsLoopThin(const std::vector<BoundaryVertex>& loop) const
+{
+  if (loop.size() < 3)
+  {
+    return true;
+  }
+  Box2 box;
+  double area = 0.0;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+  {
+    const Vec2 a = loop[k].UV - loop[0].UV;
+    const Vec2 b = loop[(k + 1) % loop.size()].UV - loop[0].UV;
+    area += a[0] * b[1] - a[1] * b[0];
+    box.extend(loop[k].UV);
+  }
+  return std::abs(area) <= 1e-13 * box.diagonal().squaredNorm();
+}
+
+void FaceLoops::RequestMiddles(const std::vector<BoundaryVertex>& loop)
+{
+  for (const BoundaryVertex& v : loop)
+  {
+    if (v.Edge >= 0 && !(*this->Job.Edges)[v.Edge].Degenerate && !this->Job.LastPass)
+    {
+      this->Requests.push_back({ v.Edge, 0.5 * (v.T0 + v.T1) });
+    }
+  }
+}
+
+// The loops where they are triangulated: in the plane of a planar face, in (u, v) otherwise.
+Loops2 FaceLoops::FlatLoops() const
+{
+  Loops2 flat(this->Loops.size());
+  Vec3 normal = Vec3::Zero();
+  double distance = 0.0;
+  if (!this->Job.Tree)
+  {
+    this->Job.Bound->IsPlanar(1e300, normal, distance);
+  }
+  const Vec3 e1 = normal.unitOrthogonal();
+  Vec3 e2 = normal.cross(e1);
+  double plane = 0.0;
+  double parameters = 0.0;
+  const Vec3 o = this->Loops[0][0].X;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    for (std::size_t l = 0; l < this->Loops.size(); ++l)
+    {
+      std::vector<Vec2> uv;
+      flat[l].clear();
+      for (const BoundaryVertex& v : this->Loops[l])
+      {
+        uv.push_back(v.UV);
+        flat[l].push_back(this->Job.Tree ? v.UV : Vec2(e1.dot(v.X - o), e2.dot(v.X - o)));
+      }
+      plane += SignedArea2(flat[l]);
+      parameters += SignedArea2(uv);
+    }
+    if (pass == 0 && (plane < 0.0) == (parameters < 0.0))
+    {
+      break;
+    }
+    e2 = -e2; // The plane's frame turns as (u, v) does.
+  }
+  return flat;
+}
+
+// Loops that cross: polylines too coarse ask for finer ones; loops that cross as curves, or run the
+// wrong way, are repaired. False: the face can't go on.
+bool FaceLoops::CheckLoops()
+{
+  const Loops2 flat = this->FlatLoops();
+  CrossingFinder finder;
+  const auto& crossings = finder.Find(flat);
+  if (!crossings.empty() && !this->Job.LastPass)
+  {
+    std::vector<const BoundaryVertex*> sides;
+    for (const auto& loop : this->Loops)
+    {
+      for (const BoundaryVertex& v : loop)
+      {
+        sides.push_back(&v);
+      }
+    }
+    for (const auto& pair : crossings)
+    {
+      this->RequestSplit(*sides[pair.first]);
+      this->RequestSplit(*sides[pair.second]);
+    }
+    if (!this->Requests.empty())
+    {
+      return false;
+    }
+  }
+  int outer = 0;
+  double largest = 0.0;
+  for (const auto& loop : flat)
+  {
+    const double area = SignedArea2(loop);
+    outer += area > 0.0;
+    largest = std::abs(area) > std::abs(largest) ? area : largest;
+  }
+  if (crossings.empty() && outer == 1 && largest > 0.0)
+  {
+    return true;
+  }
+  return this->Repair(flat);
+}
+
+bool FaceLoops::Repair(const Loops2& flat)
+{
+  RepairedLoops repaired;
+  try
+  {
+    repaired = RepairLoops(flat);
+  }
+  catch (const Error& error)
+  {
+    this->Note(FaceStatus::Failed, error.what());
+    return false;
+  }
+  if (!repaired.Changed)
+  {
+    return true;
+  }
+  this->Note(FaceStatus::Repaired, repaired.Message);
+  std::vector<BoundaryVertex> from;
+  std::vector<int> next;
+  for (const auto& loop : this->Loops)
+  {
+    const int first = int(from.size());
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      from.push_back(loop[k]);
+      next.push_back(first + int((k + 1) % loop.size()));
+    }
+  }
+  std::vector<std::vector<BoundaryVertex>> loops;
+  for (const auto& loop : repaired.Loops)
+  {
+    std::vector<BoundaryVertex> out;
+    for (const RepairedVertex& r : loop)
+    {
+      const BoundaryVertex& a = from[r.Side];
+      const BoundaryVertex& b = from[next[r.Side]];
+      BoundaryVertex v = r.Source >= 0 ? from[r.Source] : a;
+      if (r.Source < 0)
+      {
+        // On the shared chord, so that no gap opens to the neighbour.
+        v.X = a.X + r.S0 * (b.X - a.X);
+        v.UV = this->Job.Tree ? r.P : Vec2(a.UV + r.S0 * (b.UV - a.UV));
+      }
+      v.Edge = a.Edge;
+      v.T0 = a.T0 + r.S0 * (a.T1 - a.T0);
+      v.T1 = a.T0 + r.S1 * (a.T1 - a.T0);
+      out.push_back(v);
+    }
+    if (out.size() >= 3)
+    {
+      loops.push_back(std::move(out));
+    }
+  }
+  this->Loops.swap(loops);
+  if (this->Loops.empty())
+  {
+    this->Note(FaceStatus::Failed, "its loops enclose no area");
+  }
+  return !this->Loops.empty();
+}
+
+void FaceLoops::Note(FaceStatus status, const std::string& message)
+{
+  this->Mesh.Status = std::max(this->Mesh.Status, status);
+  this->Mesh.Message += (this->Mesh.Message.empty() ? "" : "; ") + message;
+}
+
+void FaceLoops::RequestSplit(const BoundaryVertex& v)
+{
+  if (v.Edge >= 0 && !this->Job.LastPass && !(*this->Job.Edges)[v.Edge].Degenerate)
+  {
+    this->Requests.push_back({ v.Edge, 0.5 * (v.T0 + v.T1) });
+  }
+}
+
+} // namespace nurbs
