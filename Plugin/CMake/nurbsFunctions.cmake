@@ -1,16 +1,13 @@
 # The few functions that the rooms' CMakeLists.txt are written with.
 
-# nurbs_existing(<out> <file>...): those of the files that exist in the current source directory.
+# nurbs_existing(<out> <file>...): the files, each of which must exist in the current source directory.
 function (nurbs_existing out)
-  file(GLOB present CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}"
-    "${CMAKE_CURRENT_SOURCE_DIR}/*.h" "${CMAKE_CURRENT_SOURCE_DIR}/*.cxx")
-  set(found)
   foreach (file IN LISTS ARGN)
-    if (file IN_LIST present)
-      list(APPEND found "${file}")
+    if (NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+      message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR} has no ${file}, which is listed there")
     endif ()
   endforeach ()
-  set("${out}" "${found}" PARENT_SCOPE)
+  set("${out}" "${ARGN}" PARENT_SCOPE)
 endfunction ()
 
 # nurbs_existing_modules(<out> <vtk.module>...): those whose room has a vtk*.cxx already.
