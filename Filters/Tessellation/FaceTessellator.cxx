@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace nurbs
@@ -291,7 +290,6 @@ private:
           id = vertexOf[id];
         }
       }
-      this->FlipEars(triangles);
       for (const auto& t : triangles)
       {
         this->Mesh.Triangles.insert(this->Mesh.Triangles.end(), t.begin(), t.end());
@@ -308,62 +306,6 @@ private:
         return;
       }
       this->EvaluateFrom(before, false);
-    }
-  }
-
-  // Twice the area in (u, v), in units of cells.
-  double ScaledArea2(int a, int b, int c) const
-  {
-    const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
-    const Vec2 e = (this->Mesh.UV[c] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
-    return d[0] * e[1] - d[1] * e[0];
-  }
-
-  // Thin triangles between two boundary segments stand across the surface, however short they are:
-  // their third edge is exchanged for the other diagonal.
-  void FlipEars(std::vector<std::array<int, 3>>& triangles) const
-  {
-    std::map<std::pair<int, int>, std::size_t> ears; // By the directed third edge.
-    for (std::size_t k = 0; k < triangles.size(); ++k)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        const int a = triangles[k][i];
-        const int b = triangles[k][(i + 1) % 3];
-        const int c = triangles[k][(i + 2) % 3];
-        if (this->IsSegment(a, b) && this->IsSegment(b, c) && !this->IsSegment(c, a))
-        {
-          const double base =
-            (this->Mesh.UV[c] - this->Mesh.UV[a]).cwiseProduct(this->Scale).squaredNorm();
-          if (this->ScaledArea2(a, b, c) < 0.1 * base)
-          {
-            ears[{ c, a }] = k;
-          }
-        }
-      }
-    }
-    for (std::size_t k = 0; k < triangles.size() && !ears.empty(); ++k)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        const int a = triangles[k][i];
-        const int c = triangles[k][(i + 1) % 3];
-        const int d = triangles[k][(i + 2) % 3];
-        const auto ear = ears.find({ c, a });
-        if (ear == ears.end() || ear->second == k)
-        {
-          continue;
-        }
-        const auto& t = triangles[ear->second];
-        const int b = t[0] != a && t[0] != c ? t[0] : (t[1] != a && t[1] != c ? t[1] : t[2]);
-        if (this->ScaledArea2(a, b, d) > 0.0 && this->ScaledArea2(b, c, d) > 0.0)
-        {
-          triangles[ear->second] = { a, b, d };
-          triangles[k] = { b, c, d };
-          ears.erase(ear);
-          break;
-        }
-      }
     }
   }
 
