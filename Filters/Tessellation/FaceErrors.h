@@ -32,19 +32,12 @@ protected:
   /// True if the boundary runs from vertex a straight to vertex b.
   bool IsSegment(int a, int b) const { return a < this->BoundaryCount && this->Next[a] == b; }
 
+  /// The parameter box of a triangle.
+  ParameterBox BoxOf(const int* t) const;
+
   static constexpr int NoLeaf = -2147483647 - 1;
 
-  std::vector<const BoundaryVertex*> Segments; ///< The segment that starts at each boundary vertex.
-  std::vector<int> Next;                       ///< The boundary vertex after each.
-  int BoundaryCount = 0;
-  /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside
-  /// that leaf; NoLeaf: anywhere.
-  std::vector<int> Leaf;
-  double Gap = 0.0; ///< Largest distance of boundary vertices from the surface.
-
-private:
-  bool IsPole(int vertex) const;
-  // Calls use(range, box) for the leaves that a triangle touches.
+  /// Calls use(range, box) for the leaves that a triangle touches.
   template <typename F>
   void ForLeaves(const int* t, int leaf, F&& use) const
   {
@@ -60,10 +53,20 @@ private:
     this->Job.Tree->Query({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b },
       [&](int k) { use(leaves[k].Range, leaves[k].Box); });
   }
+
+  std::vector<const BoundaryVertex*> Segments; ///< The segment that starts at each boundary vertex.
+  std::vector<int> Next;                       ///< The boundary vertex after each.
+  int BoundaryCount = 0;
+  /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside
+  /// that leaf; NoLeaf: anywhere.
+  std::vector<int> Leaf;
+  double Gap = 0.0; ///< Largest distance of boundary vertices from the surface.
+
+private:
+  bool IsPole(int vertex) const;
   double CloseError(const int* t) const;
   double SampledError(const int* t) const;
   bool CrossesCrease(const ParameterBox& box) const;
-  ParameterBox BoxOf(const int* t) const;
   double EdgeSliverError(const int* t, const FacetBound& facet) const;
 };
 

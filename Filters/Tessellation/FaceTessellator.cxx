@@ -331,6 +331,8 @@ private:
       {
         continue;
       }
+      this->ForLeaves(t.data(), NoLeaf,
+        [&](const CurvatureRange& range, const ParameterBox& box) { facet.AddEdges(range, box); });
       double longest = -1.0;
       std::pair<int, int> edge(-1, -1);
       for (int i = 0; i < 3; ++i)
@@ -471,7 +473,7 @@ private:
       if (v->Edge >= 0)
       {
         const EdgePolyline& edge = (*this->Job.Edges)[v->Edge];
-        edges = std::max(edges, edge.Error + edge.Gap);
+        edges = std::max(edges, edge.Error + std::max(edge.Gap, this->Gap));
       }
     }
     this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);

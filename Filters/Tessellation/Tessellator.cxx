@@ -219,7 +219,7 @@ private:
     return goal;
   }
 
-  // Parameter distances that are a twentieth of the tolerance on the surface: trim lines beside a
+  // Parameter distances that are a fiftieth of the tolerance on the surface: trim lines beside a
   // crease or a knot line leave strips that narrow, which no triangle should have to fit.
   static Vec2 SnapDistance(const SurfaceView& surface, double tolerance)
   {
@@ -235,7 +235,7 @@ private:
       sv = std::max(sv, d.Sv.norm());
     }
     const auto distance = [&](double speed, const Interval& domain) {
-      return std::min(speed > 0.0 ? 0.05 * tolerance / speed : 0.0, 1e-3 * domain.Length());
+      return std::min(speed > 0.0 ? 0.02 * tolerance / speed : 0.0, 1e-3 * domain.Length());
     };
     return Vec2(distance(su, u), distance(sv, v));
   }
