@@ -7,6 +7,11 @@
 namespace nurbs
 {
 
+namespace
+{
+constexpr double SampleSlack = 1.1; // Four samples miss the greatest distance by up to a tenth.
+} // namespace
+
 // Of a triangle's own error. A gap in the model that is near the tolerance or over it can't be
 // made up for by smaller triangles.
 double FaceErrors::Limit() const
@@ -211,7 +216,7 @@ double FaceErrors::SampledError(const int* t) const
   {
     error = std::max(error, std::abs(n.dot(evaluator.Point(p[0], p[1]) - x[t[0]])));
   }
-  return error;
+  return SampleSlack * error;
 }
 
 // Bound of the surface's distance from a triangle; `leaf`: see Leaf.

@@ -121,7 +121,13 @@ void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
   for (std::size_t k = 0; k < part.size(); ++k)
   {
     const bool free = (k == 0 || apart(k, k - 1)) && (k + 1 == part.size() || apart(k, k + 1));
-    part[k].UV = this->Clamp(raw[k], free);
+    const Vec2 near = this->Clamp(raw[k], free);
+    const Vec2 own = this->Clamp(raw[k], false);
+    const SurfaceView& s = this->TheFace.Geometry;
+    const bool same = near == own ||
+      (Evaluate(s, near[0], near[1]) - Evaluate(s, own[0], own[1])).norm() <=
+        0.03 * this->Job.Tolerance;
+    part[k].UV = same ? near : own;
   }
 }
 
