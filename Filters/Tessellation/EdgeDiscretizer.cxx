@@ -411,7 +411,7 @@ private:
   void Insert(const std::vector<double>& add)
   {
     const std::vector<double> old = this->Out.Parameters;
-    const double eps = 1e-7 * this->Domain.Length();
+    const double eps = 1e-6 * this->Domain.Length();
     std::vector<double>& ts = this->Out.Parameters;
     ts.clear();
     std::size_t k = 0;
