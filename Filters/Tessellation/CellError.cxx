@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellError.h"
 
-#include "FacetBound.h"
 #include "SurfaceTree.h"
 
 #include <algorithm>
@@ -10,246 +9,223 @@
 namespace nurbs
 {
 
+namespace
+{
+constexpr int Densest = 8;
+constexpr double SlidingShare = 0.1; // What second derivatives along the surface weigh in a split.
+
+// The facets of each diagonal by corner index; the first lies beneath the diagonal from (0,0), or
+// left of that from (1,0).
+constexpr int Facets[2][2][3] = { { { 0, 1, 3 }, { 0, 3, 2 } }, { { 0, 1, 2 }, { 1, 3, 2 } } };
+} // namespace
+
 CellError::CellError(const SurfaceBound& bound, const TreeGoal& goal)
   : Bound(bound)
   , Goal(goal)
   , Evaluator(bound.Evaluator())
 {}
 
-void CellError::Corners(const ParameterBox& box, const BezierPatch* patch)
+// True if two corners are one point, a pole of the surface.
+bool CellError::IsCollapsed(const int* f) const
 {
-  if (!patch)
+  double sides[3];
+  for (int i = 0; i < 3; ++i)
   {
-    const double us[2] = { box.U0, box.U1 };
-    const double vs[2] = { box.V0, box.V1 };
-    for (int k = 0; k < 4; ++k)
-    {
-      const SurfaceDerivatives d = this->Evaluator.Derivatives(us[k & 1], vs[k >> 1], 1);
-      this->At[k] = { d.S, d.Su, d.Sv };
-    }
-    this->MaxWeight = this->Bound.MaximumWeight();
-    return;
+    sides[i] = (this->At[f[(i + 1) % 3]] - this->At[f[i]]).squaredNorm();
   }
-  const int p = patch->Degree[0];
-  const int q = patch->Degree[1];
-  this->MaxWeight = 0.0;
+  return *std::min_element(sides, sides + 3) <= 1e-18 * *std::max_element(sides, sides + 3);
+}
+
+void CellError::MakeCorners(const ParameterBox& box)
+{
   for (int k = 0; k < 4; ++k)
   {
-    const int i = (k & 1) ? p : 0;
-    const int j = (k >> 1) ? q : 0;
-    const int in = (k & 1) ? p - 1 : 1;
-    const int jn = (k >> 1) ? q - 1 : 1;
-    const Vec4& c = patch->Points[i + j * (p + 1)];
-    const Vec4 du =
-      ((k & 1) ? c - patch->Points[in + j * (p + 1)] : patch->Points[in + j * (p + 1)] - c) *
-      (p / box.A());
-    const Vec4 dv =
-      ((k >> 1) ? c - patch->Points[i + jn * (p + 1)] : patch->Points[i + jn * (p + 1)] - c) *
-      (q / box.B());
-    const Vec3 x = c.head<3>() / c[3];
-    this->MaxWeight = std::max(this->MaxWeight, c[3]);
-    this->At[k].X = x + this->Bound.Origin();
-    this->At[k].Du = (du.head<3>() - du[3] * x) / c[3];
-    this->At[k].Dv = (dv.head<3>() - dv[3] * x) / c[3];
+    this->At[k] = this->Evaluator.Point(k & 1 ? box.U1 : box.U0, k >> 1 ? box.V1 : box.V0);
   }
 }
 
-// Twice the tangent of the angle between `n` and the surface's normals at the corners: facets of
-// neighbours meet at about that slope.
-double CellError::Slope(const Vec3& n) const
+// Samples of the cell, k in each direction.
+void CellError::SampleGrid(const ParameterBox& box, int k)
 {
-  double slope = 0.0;
-  for (const Corner& c : this->At)
+  if (this->Density == k)
   {
-    const Vec3 m = c.Du.cross(c.Dv);
-    const double along = m.dot(n);
-    const double square = m.squaredNorm();
-    if (along * along > 0.25 * square && square > 0.0)
+    return;
+  }
+  this->Density = k;
+  this->Sample.resize(std::size_t(k + 1) * (k + 1));
+  for (int j = 0; j <= k; ++j)
+  {
+    for (int i = 0; i <= k; ++i)
     {
-      slope = std::max(slope, std::sqrt(std::max(0.0, square / (along * along) - 1.0)));
-    }
-    else if (square > 0.0)
-    {
-      return 1.0;
+      this->Sample[i + std::size_t(j) * (k + 1)] =
+        this->Evaluator.Point(box.U0 + box.A() * i / k, box.V0 + box.B() * j / k);
     }
   }
-  return 2.0 * slope;
 }
 
-namespace
+// The samples in one half of the cell, or (`alone`) all of them, against its facet.
+SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bool alone) const
 {
-// Facets of the two diagonals: corner indices of the triangles (counter-clockwise in u, v).
-constexpr int Facets[2][2][3] = { { { 0, 1, 3 }, { 0, 3, 2 } }, { { 0, 1, 2 }, { 1, 3, 2 } } };
-} // namespace
-
-double CellError::Bounded(TreeLeaf& leaf, const BezierPatch* patch)
-{
-  const ParameterBox& box = leaf.Box;
-  CurvatureRange& range = leaf.Range;
-  const double a = box.A();
-  const double b = box.B();
-  const Vec3 d1 = this->At[3].X - this->At[0].X;
-  const Vec3 d2 = this->At[2].X - this->At[1].X;
-  Vec3 n = d1.cross(d2);
-  const double area = n.norm();
-  const Vec3 middle = 0.25 * (this->At[0].X + this->At[1].X + this->At[2].X + this->At[3].X);
-  this->Bound.Evaluate(box, patch, middle, this->Coefficients);
-  const double longest = std::max(d1.squaredNorm(), d2.squaredNorm());
-  const bool flat = area > 1e-10 * longest && longest > 0.0;
-  n = flat ? Vec3(n / area) : Vec3(Vec3::Zero());
-  range = SurfaceBound::Range(
-    this->Coefficients, n, this->At[1].X - this->At[0].X + this->At[3].X - this->At[2].X);
-  const double sliding = DeviationBound(range, a, b);
-  const double w = 0.125 / range.MinWeight;
-  const auto most = [&](int k) { return std::max(range.High[k][0], -range.Low[k][0]) * w; };
-  if (!flat)
+  const int k = this->Density;
+  SampleDistance samples;
+  for (int j = 0; j <= k; ++j)
   {
-    this->CostU = a * a * range.Sliding[0];
-    this->CostV = b * b * range.Sliding[2];
-    leaf.Height = sliding;
-    leaf.Sliding = 0.0;
-    return sliding;
+    for (int i = 0; i <= k; ++i)
+    {
+      const int side = diagonal == 0 ? i - j : k - i - j;
+      if (alone || (half == 0 ? side >= 0 : side <= 0))
+      {
+        samples.Add(facet, this->Sample[i + std::size_t(j) * (k + 1)]);
+      }
+    }
   }
-  const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
-    Vec2(box.U1, box.V1) };
-  double worst = 1e300;
+  return samples;
+}
+
+double CellError::Sampled(const ParameterBox& box)
+{
+  this->MakeCorners(box);
+  this->Density = 0;
+  this->SampleGrid(box, 4);
+  double best = 1e300;
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
-    double error = 0.0;
-    double height = 0.0;
-    double slide = 0.0;
-    for (const int* f : Facets[diagonal])
+    double worst = 0.0;
+    for (int half = 0; half < 2; ++half)
     {
-      FacetBound facet(
-        this->At[f[0]].X, this->At[f[1]].X, this->At[f[2]].X, uv[f[0]], uv[f[1]], uv[f[2]]);
-      if (!facet.HasPlane())
+      const int* f = Facets[diagonal][half];
+      if (!this->IsCollapsed(f))
       {
-        continue; // A corner at a pole: no triangle there.
+        const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
+        const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
+        worst = std::max(worst, this->Samples(facet, diagonal, half, alone).Far);
       }
-      facet.SetFourthCorner(this->At[6 - f[0] - f[1] - f[2]].X, this->MaxWeight);
-      facet.Add(range, box);
-      double h = facet.Height();
-      double d = facet.Deviation();
-      const double slope = this->Slope(facet.Normal());
-      if (h <= this->Goal.Tolerance && SurfaceDistance(h, d, slope) > this->Goal.Tolerance)
-      {
-        facet.AddEdges(range, box);
-        d = facet.Sliding();
-      }
-      if (!patch && h > this->Goal.Tolerance)
-      {
-        const Vec3 corners[4] = { this->At[0].X, this->At[1].X, this->At[2].X, this->At[3].X };
-        double values[4] = { 0.0, 0.0, 0.0, 0.0 };
-        const int fourth = 6 - f[0] - f[1] - f[2];
-        const double twist = facet.Normal().dot(corners[fourth] - corners[f[0]]);
-        values[fourth] = this->MaxWeight * twist;
-        const double share = 0.25 * std::abs(values[fourth]);
-        const double goal = this->Goal.Tolerance * range.MinWeight - share;
-        const SurfaceBound::Roughness rough =
-          this->Bound.BoundRoughness(box, facet.Normal(), corners[f[0]], corners, values, goal);
-        h = std::min(h, (rough.Height + share) / range.MinWeight);
-        d = std::min(d, rough.Deviation);
-      }
-      height = std::max(height, h);
-      slide = std::max(slide, d);
-      error = std::max(error, SurfaceDistance(h, d, slope));
     }
-    if (error < worst)
-    {
-      worst = error;
-      leaf.Height = height;
-      leaf.Sliding = slide;
-      leaf.Diagonal = diagonal;
-    }
+    best = std::min(best, worst);
   }
-  const double slope = std::min(1.0, this->Slope(n));
-  this->CostU = a * a * (most(0) + slope * 0.125 * range.Sliding[0]);
-  this->CostV = b * b * (most(2) + slope * 0.125 * range.Sliding[2]);
-  const double mixed = 2.0 * a * b * most(1);
-  if (mixed > 4.0 * std::max(this->CostU, this->CostV))
+  return best;
+}
+
+// The error of the two facets of a diagonal; not examined further once it is known to be over the
+// tolerance, or over `best`.
+double CellError::Halves(int diagonal, const ParameterBox& box, double best)
+{
+  const double tolerance = this->Goal.Tolerance;
+  const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
+  double worst = 0.0;
+  for (int half = 0; half < 2; ++half)
   {
-    // Twist alone: split the longer side.
-    this->CostU = (this->At[1].X - this->At[0].X).norm() + (this->At[3].X - this->At[2].X).norm();
-    this->CostV = (this->At[2].X - this->At[0].X).norm() + (this->At[3].X - this->At[1].X).norm();
+    const int* f = Facets[diagonal][half];
+    const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
+    if (this->IsCollapsed(f))
+    {
+      continue; // At a pole: no triangle comes out.
+    }
+    const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
+    const Remainder rest(this->Second, box.A(), box.B(), facet);
+    double error = 1e300;
+    if (guaranteed)
+    {
+      // The bilinear interpolant of the heights is a quarter of that of the fourth corner at most.
+      const double twist =
+        std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
+      Remainder whole = rest;
+      if (facet.HasPlane() && !alone)
+      {
+        whole.Across = std::min(
+          whole.Across, this->Second.Bow(box.A(), box.B(), facet.Normal(), false) + 0.25 * twist);
+      }
+      error = CombineError(SampleDistance(), whole, 1);
+    }
+    for (int k = 2; error > tolerance; k *= 2)
+    {
+      this->SampleGrid(box, k);
+      const SampleDistance samples = this->Samples(facet, diagonal, half, alone);
+      const bool dense = k == Densest || (k == 4 && !guaranteed);
+      if (!guaranteed && (dense || !this->Bound.HasGridLineInside(box)))
+      {
+        error = samples.Far;
+        break;
+      }
+      if (guaranteed)
+      {
+        error = std::min(error, CombineError(samples, rest, k));
+      }
+      if (samples.Far > tolerance || dense ||
+        (guaranteed && CombineError(samples, rest, Densest) > tolerance))
+      {
+        error = guaranteed ? error : samples.Far;
+        break;
+      }
+    }
+    worst = std::max(worst, error);
+    if (worst > tolerance || worst >= best)
+    {
+      return worst;
+    }
   }
   return worst;
 }
 
-double CellError::Estimated(TreeLeaf& leaf, const BezierPatch* patch)
+double CellError::Measure(TreeLeaf& leaf)
 {
   const ParameterBox& box = leaf.Box;
-  CurvatureRange& range = leaf.Range;
-  const double a = box.A();
-  const double b = box.B();
-  // Second derivatives at the middle stand for those of the cell.
-  const SurfaceDerivatives d =
-    this->Evaluator.Derivatives(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1), 2);
-  Vec3 n = (this->At[3].X - this->At[0].X).cross(this->At[2].X - this->At[1].X);
-  const double area = n.norm();
-  n = area > 0.0 ? Vec3(n / area) : Vec3(Vec3::Zero());
-  range = CurvatureRange();
-  range.Origin = d.S;
-  range.Frame.setIdentity();
-  const Vec3* second[3] = { &d.Suu, &d.Suv, &d.Svv };
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      range.Low[k][c] = range.High[k][c] = (*second[k])[c];
-    }
-    range.Sliding[k] = second[k]->norm();
-  }
-  this->CostU = a * a * std::abs(n.dot(d.Suu));
-  this->CostV = b * b * std::abs(n.dot(d.Svv));
-
-  // Distances of samples from the facets' planes; several knot spans need more of them.
-  const int m = patch ? 2 : 6;
-  double worst[2] = { 0.0, 0.0 };
-  Vec3 normal[2][2];
+  this->Density = 0;
+  // The middle lies on both diagonals: if it is too far from both, the cell has failed.
+  const Vec3 middle = this->Evaluator.Point(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1));
+  double far[2];
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
-    for (int f = 0; f < 2; ++f)
+    far[diagonal] = 1e300;
+    for (const int* f : Facets[diagonal])
     {
-      const int* t = Facets[diagonal][f];
-      const Vec3& x = this->At[t[0]].X;
-      normal[diagonal][f] = (this->At[t[1]].X - x).cross(this->At[t[2]].X - x);
-      const double size = normal[diagonal][f].norm();
-      normal[diagonal][f] /= size > 0.0 ? size : 1.0;
+      SampleDistance sample;
+      sample.Add(Facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]), middle);
+      far[diagonal] = std::min(far[diagonal], sample.Far);
     }
   }
-  for (int j = 0; j <= m; ++j)
+  leaf.Diagonal = far[0] <= far[1] ? 0 : 1;
+  if (std::min(far[0], far[1]) > this->Goal.Tolerance)
   {
-    for (int i = 0; i <= m; ++i)
+    return far[leaf.Diagonal];
+  }
+  double error = this->Halves(leaf.Diagonal, box, 1e300);
+  if (error > this->Goal.Tolerance)
+  {
+    const double other = this->Halves(1 - leaf.Diagonal, box, error);
+    if (other < error)
     {
-      if ((i == 0 || i == m) && (j == 0 || j == m))
-      {
-        continue;
-      }
-      const Vec3 x = this->Evaluator.Point(box.U0 + a * i / m, box.V0 + b * j / m);
-      // Facet 0 lies beneath the diagonal from (0,0), or left of that from (1,0).
-      const int side[2] = { i - j, m - i - j };
-      for (int diagonal = 0; diagonal < 2; ++diagonal)
-      {
-        for (int f = 0; f < 2; ++f)
-        {
-          if ((f == 0 && side[diagonal] >= 0) || (f == 1 && side[diagonal] <= 0))
-          {
-            const Vec3& at = this->At[Facets[diagonal][f][0]].X;
-            worst[diagonal] = std::max(worst[diagonal], std::abs(normal[diagonal][f].dot(x - at)));
-          }
-        }
-      }
+      error = other;
+      leaf.Diagonal = 1 - leaf.Diagonal;
     }
   }
-  leaf.Diagonal = worst[0] <= worst[1] ? 0 : 1;
-  leaf.Height = worst[leaf.Diagonal];
-  leaf.Sliding = 0.0;
-  return leaf.Height;
+  return error;
 }
 
-bool CellError::ExceedsLimits(int& axis) const
+int CellError::CheaperAxis(const ParameterBox& box) const
 {
-  const auto length = [&](int i, int j) { return (this->At[i].X - this->At[j].X).norm(); };
+  const Vec3 diagonal = this->At[3] - this->At[0];
+  const Vec3 other = this->At[2] - this->At[1];
+  const Vec3 n = diagonal.cross(other).normalized();
+  const double a = box.A();
+  const double b = box.B();
+  const auto cost = [&](int k) {
+    return this->Second.Greatest(k, n) + SlidingShare * this->Second.Greatest(k);
+  };
+  double u = a * a * cost(0);
+  double v = b * b * cost(2);
+  if (2.0 * a * b * this->Second.Greatest(1, n) > 4.0 * std::max(u, v))
+  {
+    // Twist alone: split the longer side.
+    u = (this->At[1] - this->At[0]).norm() + (this->At[3] - this->At[2]).norm();
+    v = (this->At[2] - this->At[0]).norm() + (this->At[3] - this->At[1]).norm();
+  }
+  return u >= v ? 0 : 1;
+}
+
+bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
+{
+  const auto length = [&](int i, int j) { return (this->At[i] - this->At[j]).norm(); };
   const double lu = std::max(length(0, 1), length(2, 3));
   const double lv = std::max(length(0, 2), length(1, 3));
   if (this->Goal.MaximumEdgeLength > 0.0 && std::hypot(lu, lv) > this->Goal.MaximumEdgeLength)
@@ -259,10 +235,15 @@ bool CellError::ExceedsLimits(int& axis) const
   }
   if (this->Goal.MaximumAngle > 0.0)
   {
+    Vec3 point;
+    Vec3 normal[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      this->Evaluator.PointAndNormal(
+        k & 1 ? box.U1 : box.U0, k >> 1 ? box.V1 : box.V0, point, normal[k]);
+    }
     const auto angle = [&](int i, int j) {
-      const Vec3 a = this->At[i].Du.cross(this->At[i].Dv);
-      const Vec3 b = this->At[j].Du.cross(this->At[j].Dv);
-      return std::atan2(a.cross(b).norm(), a.dot(b));
+      return std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
     };
     const double au = std::max(angle(0, 1), angle(2, 3));
     const double av = std::max(angle(0, 2), angle(1, 3));
@@ -275,19 +256,14 @@ bool CellError::ExceedsLimits(int& axis) const
   return false;
 }
 
-int CellError::Examine(const BezierPatch* patch, TreeLeaf& leaf)
+int CellError::Examine(TreeLeaf& leaf)
 {
-  this->Corners(leaf.Box, patch);
-  const double error = this->Goal.Error == ErrorMode::Guaranteed ? this->Bounded(leaf, patch)
-                                                                 : this->Estimated(leaf, patch);
-  leaf.Error = error;
-  int axis = this->CostU >= this->CostV ? 0 : 1;
-  leaf.Axis = axis;
-  if (error <= this->Goal.Tolerance && !this->ExceedsLimits(axis))
-  {
-    return -1;
-  }
-  return axis;
+  const ParameterBox& box = leaf.Box;
+  this->MakeCorners(box);
+  this->Second = this->Bound.Over(box);
+  leaf.Error = this->Measure(leaf);
+  int axis = leaf.Axis = this->CheaperAxis(box);
+  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(box, axis) ? -1 : axis;
 }
 
 } // namespace nurbs

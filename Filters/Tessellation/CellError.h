@@ -3,8 +3,7 @@
 /// @brief Decides whether two triangles can replace the surface over a cell, and where to split.
 #pragma once
 
-#include "SurfaceBound.h"
-#include "SurfaceEvaluator.h"
+#include "FacetBound.h"
 
 namespace nurbs
 {
@@ -12,35 +11,35 @@ namespace nurbs
 struct TreeGoal;
 struct TreeLeaf;
 
-/// Examines cells of one surface. One object per thread.
+/// Examines cells of one surface (Balazs, Guthe, Klein 2004, section 5.2). One object per thread.
 class CellError
 {
 public:
   CellError(const SurfaceBound& bound, const TreeGoal& goal);
 
   /// Returns -1 if the cell `leaf.Box` is good enough, else the direction (0: u, 1: v) to split.
-  /// Fills the leaf's Range (bounds for any triangle inside the box), Height, Sliding, Diagonal.
-  /// @param patch the Bezier form over exactly this box, or null for boxes of several spans.
-  int Examine(const BezierPatch* patch, TreeLeaf& leaf);
+  /// Fills the leaf's Error, Axis and Diagonal. No crease crosses the box.
+  int Examine(TreeLeaf& leaf);
+  /// The sampled error of the better pair of triangles, whatever it is.
+  double Sampled(const ParameterBox& box);
 
 private:
-  struct Corner
-  {
-    Vec3 X, Du, Dv;
-  };
-  void Corners(const ParameterBox& box, const BezierPatch* patch);
-  double Slope(const Vec3& n) const;
-  double Bounded(TreeLeaf& leaf, const BezierPatch* patch);
-  double Estimated(TreeLeaf& leaf, const BezierPatch* patch);
-  bool ExceedsLimits(int& axis) const;
+  double Measure(TreeLeaf& leaf);
+  void MakeCorners(const ParameterBox& box);
+  SampleDistance Samples(const Facet& facet, int diagonal, int half, bool alone) const;
+  double Halves(int diagonal, const ParameterBox& box, double best);
+  bool IsCollapsed(const int* facet) const;
+  void SampleGrid(const ParameterBox& box, int k);
+  int CheaperAxis(const ParameterBox& box) const;
+  bool ExceedsLimits(const ParameterBox& box, int& axis);
 
   const SurfaceBound& Bound;
   const TreeGoal& Goal;
   SurfaceEvaluator Evaluator;
-  SurfaceBound::Coefficients Coefficients;
-  Corner At[4];           ///< (0,0), (1,0), (0,1), (1,1).
-  double MaxWeight = 1.0; ///< Of the corners.
-  double CostU = 0.0, CostV = 0.0;
+  SecondDerivatives Second;
+  Vec3 At[4];               ///< Corners (0,0), (1,0), (0,1), (1,1).
+  std::vector<Vec3> Sample; ///< (Density + 1)^2 points, u fastest.
+  int Density = 0;
 };
 
 } // namespace nurbs

@@ -186,8 +186,8 @@ std::uint64_t CellZone::Outline(const std::vector<int>& polygon) const
   return hash | 1;
 }
 
-void CellZone::TriangulatePart(std::size_t begin, std::size_t end,
-  const std::function<bool(const Triangle&)>& good, std::vector<LeafState>& states, Part& out) const
+void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const GoodTriangle& good,
+  FacetBound bound, std::vector<LeafState>& states, Part& out) const
 {
   std::vector<int> polygon;
   std::vector<int> lower;
@@ -222,7 +222,8 @@ void CellZone::TriangulatePart(std::size_t begin, std::size_t end,
     {
       state = LeafState();
       state.Outline = outline;
-      state.Fan = !std::all_of(out.Triangles.begin() + first, out.Triangles.end(), good);
+      state.Fan = !std::all_of(out.Triangles.begin() + first, out.Triangles.end(),
+        [&](const Triangle& t) { return good(bound, t); });
     }
     if (state.Fan)
     {
@@ -237,7 +238,7 @@ void CellZone::TriangulatePart(std::size_t begin, std::size_t end,
   }
 }
 
-void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good,
+void CellZone::TriangulateWhole(const GoodTriangle& good, const FacetBound& bound,
   std::vector<LeafState>& states, const ParallelFor& parallel)
 {
   this->SortVertices();
@@ -249,7 +250,7 @@ void CellZone::TriangulateWhole(const std::function<bool(const Triangle&)>& good
     {
       const std::size_t from = std::size_t(p) * Grain;
       this->TriangulatePart(
-        from, std::min(from + Grain, this->Whole.size()), good, states, parts[p]);
+        from, std::min(from + Grain, this->Whole.size()), good, bound, states, parts[p]);
     }
   });
   std::vector<std::pair<int, int>> directed;

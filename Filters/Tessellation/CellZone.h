@@ -3,6 +3,7 @@
 /// @brief The cells of a surface tree against a trimmed region: whole, cut or outside.
 #pragma once
 
+#include "FacetBound.h"
 #include "TrimRegion.h"
 
 #include <functional>
@@ -30,6 +31,8 @@ public:
     int Leaf;
     bool Whole; ///< One of the leaf's own two triangles (no T-vertex on its sides).
   };
+  /// Called from several threads, each with a FacetBound of its own.
+  using GoodTriangle = std::function<bool(FacetBound&, const Triangle&)>;
 
   /// @param margin leaves nearer to a trim line than this share of their size count as cut.
   CellZone(const SurfaceTree& tree, const TrimRegion& region, double margin);
@@ -41,7 +44,7 @@ public:
   /// Triangulates the whole cells, with the T-vertices on their sides. A cell with T-vertices one of
   /// whose triangles is not `good` becomes a fan around its middle, a new point of Points().
   /// @param states one a leaf; what it knows of unchanged cells is not tried again.
-  void TriangulateWhole(const std::function<bool(const Triangle&)>& good,
+  void TriangulateWhole(const GoodTriangle& good, const FacetBound& bound,
     std::vector<LeafState>& states, const ParallelFor& parallel);
   const std::vector<Triangle>& Triangles() const { return this->Result; }
   /// Sides of whole cells that face the border zone, directed with the zone on their left.
@@ -75,9 +78,8 @@ private:
   void Monotone(int leaf, const std::vector<int>& lower, const std::vector<int>& upper,
     std::vector<Triangle>& out) const;
   struct Part;
-  void TriangulatePart(std::size_t begin, std::size_t end,
-    const std::function<bool(const Triangle&)>& good, std::vector<LeafState>& states,
-    Part& out) const;
+  void TriangulatePart(std::size_t begin, std::size_t end, const GoodTriangle& good,
+    FacetBound bound, std::vector<LeafState>& states, Part& out) const;
   std::uint64_t Outline(const std::vector<int>& polygon) const;
 
   const SurfaceTree& Tree;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeDiscretizer.h"
 
+#include "FacetBound.h"
 #include "SurfaceEvaluator.h"
 
 #include <algorithm>
@@ -266,19 +267,6 @@ void FindRoots(
   FindRoots(right, tm, t1, depth - 1, roots);
 }
 
-// The straight line between two points of a domain, lifted to the surface.
-std::vector<BezierCurve<3>> LiftChord(const SurfaceView& surface, const Vec2& a, const Vec2& b)
-{
-  const double points[6] = { a[0], a[1], 1.0, b[0], b[1], 1.0 };
-  const double knots[4] = { 0.0, 0.0, 1.0, 1.0 };
-  CurveView<2> chord;
-  chord.Degree = 1;
-  chord.Knots = KnotView(knots, 4);
-  chord.Points = points;
-  chord.Count = 2;
-  return LiftTrimCurve(surface, chord);
-}
-
 bool IsStraight(const CurveView<2>& c)
 {
   const Vec2 a = c.Point(0);
@@ -494,40 +482,39 @@ private:
   // Segments that the chord between two parameter points needs to stay at the surface; 1: fine.
   int ChordSegments(const EdgeUse& use, const Vec2& a, const Vec2& b, double& error) const
   {
-    const FaceContext& face = this->Faces[use.Face];
+    const SurfaceBound& bound = *this->Faces[use.Face].Bound;
     const double goal = CurveShare * this->Tolerance;
-    ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
+    const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
       std::max(a[1], b[1]) };
-    double bow = 0.0;
-    const std::vector<TreeLeaf>& leaves = face.Tree->Leaves();
-    face.Tree->Query(box,
-      [&](int leaf) { bow = std::max(bow, DeviationBound(leaves[leaf].Range, box.A(), box.B())); });
-    if (bow <= goal)
+    const double rest = bound.Over(box).Bow(box.A(), box.B());
+    error = rest;
+    if (error <= goal)
     {
-      error = bow;
       return 1;
     }
-    if (this->Options.Error == ErrorMode::Estimated)
+    // Between samples the curve is a mean of them plus the remainder (FacetBound.h).
+    const bool guaranteed = this->Options.Error == ErrorMode::Guaranteed;
+    const SurfaceView& s = bound.View();
+    const Vec3 x0 = Evaluate(s, a[0], a[1]);
+    const Facet chord(x0, Evaluate(s, b[0], b[1]), x0);
+    double far = 0.0;
+    for (int k = 4; k <= 16; k *= 2)
     {
-      const SurfaceView& s = face.Bound->View();
-      const Vec3 x0 = Evaluate(s, a[0], a[1]);
-      const Vec3 x1 = Evaluate(s, b[0], b[1]);
-      Vec3 direction = x1 - x0;
-      direction /= std::max(1e-300, direction.norm());
-      double far = 0.0;
-      for (double t : { 0.25, 0.5, 0.75 })
+      for (int i = 1; i < k; ++i)
       {
-        const Vec2 p = a + t * (b - a);
-        const Vec3 x = Evaluate(s, p[0], p[1]) - x0;
-        far = std::max(far, (x - direction * direction.dot(x)).norm());
+        const Vec2 p = a + (b - a) * (double(i) / k);
+        double height;
+        double distance;
+        chord.Measure(Evaluate(s, p[0], p[1]), height, distance);
+        far = std::max(far, distance);
       }
-      error = far;
-      return far <= goal ? 1 : std::min(64, int(std::ceil(std::sqrt(far / goal))));
+      error = far + (guaranteed ? rest / (k * k) : 0.0);
+      if (error <= goal || far > goal || !guaranteed)
+      {
+        break;
+      }
     }
-    CurveOptions options = this->Options.Curves;
-    const std::size_t points =
-      ApproximateCurve(LiftChord(face.Bound->View(), a, b), goal, options, error).size();
-    return std::max(1, std::min(64, int(points) - 1));
+    return error <= goal ? 1 : std::max(2, std::min(64, int(std::ceil(std::sqrt(error / goal)))));
   }
 
   // Segments that a chord needs so that a triangle beside it, as deep as the tree's cells, can stay
@@ -538,22 +525,26 @@ private:
     const double dv = std::abs(b[1] - a[1]);
     const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
       std::max(a[1], b[1]) };
+    // Curvature as it is in the middle: what is certain comes with the triangles.
+    const Vec2 middle = 0.5 * (a + b);
+    const SurfaceView& s = face.Bound->View();
+    const SurfaceDerivatives d = EvaluateDerivatives(s, middle[0], middle[1], 2);
+    const Vec3 n = Normal(s, middle[0], middle[1]);
+    const double height[3] = { std::abs(n.dot(d.Suu)), std::abs(n.dot(d.Suv)),
+      std::abs(n.dot(d.Svv)) };
+    const double along =
+      0.125 * (du * du * height[0] + 2.0 * du * dv * height[1] + dv * dv * height[2]);
     double most = 1.0;
     const std::vector<TreeLeaf>& leaves = face.Tree->Leaves();
     face.Tree->Query(box, [&](int k) {
-      const TreeLeaf& leaf = leaves[k];
-      if (leaf.Box.A() < 0.02 * du || leaf.Box.B() < 0.02 * dv)
+      const ParameterBox& cell = leaves[k].Box;
+      if (cell.A() < 0.02 * du || cell.B() < 0.02 * dv)
       {
         return;
       }
-      const Vec3 n = leaf.Range.Frame.col(0);
-      const auto height = [&](double x, double y) {
-        return BoundDeviation(leaf.Range, x, y, n, leaf.Range.Origin).Largest() /
-          leaf.Range.MinWeight;
-      };
-      const double along = height(du, dv);
-      const bool mostlyU = du * leaf.Box.B() > dv * leaf.Box.A();
-      const double depth = 0.7 * (mostlyU ? height(0.0, leaf.Box.B()) : height(leaf.Box.A(), 0.0));
+      const bool mostlyU = du * cell.B() > dv * cell.A();
+      const double depth =
+        0.7 * 0.125 * (mostlyU ? cell.B() * cell.B() * height[2] : cell.A() * cell.A() * height[0]);
       const double room = std::max(0.3 * this->Tolerance, 0.9 * this->Tolerance - depth);
       most = std::max(most, std::sqrt(along / room));
     });

@@ -229,12 +229,7 @@ void FaceLoops::RequestMiddles(const std::vector<BoundaryVertex>& loop)
 Loops2 FaceLoops::FlatLoops() const
 {
   Loops2 flat(this->Loops.size());
-  Vec3 normal = Vec3::Zero();
-  double distance = 0.0;
-  if (!this->Job.Tree)
-  {
-    this->Job.Bound->IsPlanar(1e300, normal, distance);
-  }
+  const Vec3& normal = this->Job.Bound->PlaneNormal();
   const Vec3 e1 = normal.unitOrthogonal();
   Vec3 e2 = normal.cross(e1);
   double plane = 0.0;

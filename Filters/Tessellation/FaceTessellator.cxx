@@ -5,7 +5,9 @@
 #include "FaceErrors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace nurbs
@@ -89,7 +91,7 @@ private:
       this->Mesh.Normals[first + k] = Eigen::Map<const Vec3>(normals.data() + 3 * k);
       if (pointsGiven)
       {
-        this->Gap = std::max(this->Gap, (x - this->Mesh.Points[first + k]).norm());
+        this->Gaps.push_back((x - this->Mesh.Points[first + k]).norm());
       }
       else
       {
@@ -102,8 +104,6 @@ private:
 
   bool Planar(const TrimRegion& region)
   {
-    Vec3 normal = Vec3::Zero();
-    this->Job.Bound->IsPlanar(1e300, normal, this->Flatness);
     this->Scale = Vec2(1.0, 1.0);
     std::vector<Vec2> flat;
     for (const auto& loop : this->FlatLoops())
@@ -132,11 +132,12 @@ private:
     this->EvaluateFrom(first, false);
     const std::size_t corners = zone.Points().size();
     zone.TriangulateWhole(
-      [&](const CellZone::Triangle& t) {
+      [&](FacetBound& bound, const CellZone::Triangle& t) {
         const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-        return this->TriangleError(corner, -1 - t.Leaf) <= this->Limit();
+        return this->TriangleError(bound, corner) <= this->Job.Tolerance;
       },
-      *this->Job.States, this->Job.Parallel);
+      FacetBound(*this->Job.Bound, this->Job.Options->Error), *this->Job.States,
+      this->Job.Parallel);
     const std::size_t middles = this->Mesh.UV.size();
     this->Mesh.UV.insert(this->Mesh.UV.end(), zone.Points().begin() + corners, zone.Points().end());
     this->EvaluateFrom(middles, false);
@@ -278,6 +279,7 @@ private:
     const std::size_t base = this->Mesh.Triangles.size();
     const std::size_t budget = this->Mesh.UV.size() + 3 * vertexOf.size() + 1000;
     std::vector<std::array<int, 3>> triangles;
+    this->BorderErrors.clear();
     for (int pass = 0;; ++pass)
     {
       border.Triangles(triangles);
@@ -295,12 +297,13 @@ private:
         this->Mesh.Triangles.insert(this->Mesh.Triangles.end(), t.begin(), t.end());
         this->Leaf.push_back(NoLeaf);
       }
-      if (!this->Job.Tree || pass == 16 || this->Mesh.UV.size() > budget)
+      if (!this->Job.Tree)
       {
         return;
       }
       const std::size_t before = this->Mesh.UV.size();
-      this->SplitFailing(triangles, border, vertexOf);
+      const bool splits = pass < 16 && before <= budget;
+      this->ExamineBorder(triangles, border, vertexOf, splits);
       if (this->Mesh.UV.size() == before)
       {
         return;
@@ -309,9 +312,11 @@ private:
     }
   }
 
-  void SplitFailing(const std::vector<std::array<int, 3>>& triangles, BorderTriangulation& border,
-    std::vector<int>& vertexOf)
+  // Measures the triangles of the border zone; with `splits`, adds vertices where they fail.
+  void ExamineBorder(const std::vector<std::array<int, 3>>& triangles, BorderTriangulation& border,
+    std::vector<int>& vertexOf, bool splits)
   {
+    FacetBound bound(*this->Job.Bound, this->Job.Options->Error);
     std::set<std::pair<int, int>> split;
     std::vector<int> idOf(this->Mesh.UV.size(), -1);
     for (std::size_t id = 0; id < vertexOf.size(); ++id)
@@ -320,28 +325,27 @@ private:
     }
     for (const auto& t : triangles)
     {
-      if (this->IsCollapsed(t.data()) || this->IsTiny(t.data()))
+      const double error = this->BorderError(bound, t);
+      if (!splits || this->IsCollapsed(t.data()) || this->IsTiny(t.data()))
       {
         continue;
       }
-      FacetBound facet = this->Facet(t.data(), NoLeaf);
+      const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);
       const bool folded = facet.HasPlane() && this->IsFolded(t.data(), facet.Normal());
-      if ((folded && this->SplitSegments(t.data())) ||
-        (!folded && this->TriangleError(t.data(), NoLeaf) <= this->Limit()))
+      if ((folded && this->SplitSegments(t.data())) || (!folded && error <= this->Limit(t.data())))
       {
         continue;
       }
-      this->ForLeaves(t.data(), NoLeaf,
-        [&](const CurvatureRange& range, const ParameterBox& box) { facet.AddEdges(range, box); });
+      const SecondDerivatives second = this->Job.Bound->Over(this->BoxOf(t.data()));
       double longest = -1.0;
       std::pair<int, int> edge(-1, -1);
       for (int i = 0; i < 3; ++i)
       {
         const int a = t[i];
         const int b = t[(i + 1) % 3];
-        const double length = facet.HasPlane()
-          ? facet.EdgeHeight(i)
-          : (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseProduct(this->Scale).norm();
+        const Vec2 d = (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseAbs();
+        const double length = facet.HasPlane() ? second.Bow(d[0], d[1], facet.Normal())
+                                               : d.cwiseProduct(this->Scale).norm();
         if (length > longest && !border.IsWall(idOf[a], idOf[b]))
         {
           longest = length;
@@ -383,7 +387,29 @@ private:
       longest =
         std::max(longest, (this->Mesh.Points[t[(i + 1) % 3]] - this->Mesh.Points[t[i]]).norm());
     }
-    return longest < std::max(0.5 * this->Job.Tolerance, 16.0 * this->Gap);
+    return longest < 0.5 * this->Job.Tolerance;
+  }
+
+  // The error of a triangle of the border zone, computed once as long as the triangle stays.
+  double BorderError(FacetBound& bound, const std::array<int, 3>& t)
+  {
+    std::array<int, 3> key = t;
+    std::sort(key.begin(), key.end());
+    const auto found = this->BorderErrors.emplace(key, 0.0);
+    if (found.second)
+    {
+      found.first->second = this->TriangleError(bound, t.data());
+    }
+    return found.first->second;
+  }
+
+  ParameterBox BoxOf(const int* t) const
+  {
+    const Vec2& a = this->Mesh.UV[t[0]];
+    const Vec2& b = this->Mesh.UV[t[1]];
+    const Vec2& c = this->Mesh.UV[t[2]];
+    return { std::min({ a[0], b[0], c[0] }), std::max({ a[0], b[0], c[0] }),
+      std::min({ a[1], b[1], c[1] }), std::max({ a[1], b[1], c[1] }) };
   }
 
   bool IsFolded(const int* t, const Vec3& n) const
@@ -437,19 +463,21 @@ private:
   // --- Step 4: certification --------------------------------------------------------------------
   void Certify()
   {
-    double worst = this->Flatness;
+    double worst = 0.0;
+    double gap = 0.0;
+    for (double g : this->Gaps)
+    {
+      gap = std::max(gap, g);
+    }
     if (this->Job.Tree)
     {
       std::vector<double> error(this->Leaf.size());
       this->Job.Parallel(
         0, std::int64_t(this->Leaf.size()), [&](std::int64_t begin, std::int64_t end) {
+          FacetBound bound(*this->Job.Bound, this->Job.Options->Error);
           for (std::int64_t k = begin; k < end; ++k)
           {
-            const int leaf = this->Leaf[k];
-            const double known =
-              leaf < 0 && leaf != NoLeaf ? (*this->Job.States)[-1 - leaf].Error : -1.0;
-            error[k] =
-              known >= 0.0 ? known : this->TriangleError(&this->Mesh.Triangles[3 * k], leaf);
+            error[k] = this->FinalError(bound, std::size_t(k));
           }
         });
       for (std::size_t k = 0; k < this->Leaf.size(); ++k)
@@ -461,11 +489,15 @@ private:
           double& known = (*this->Job.States)[-1 - leaf].Error;
           known = std::max(known, error[k]);
         }
-        if (error[k] > this->Limit() && leaf != NoLeaf)
+        if (error[k] > this->Job.Tolerance && leaf != NoLeaf)
         {
           this->WeakLeaves.push_back(leaf >= 0 ? leaf : -1 - leaf);
         }
       }
+    }
+    else
+    {
+      worst = this->Job.Bound->Flatness() + gap;
     }
     double edges = 0.0;
     for (const BoundaryVertex* v : this->Segments)
@@ -473,11 +505,29 @@ private:
       if (v->Edge >= 0)
       {
         const EdgePolyline& edge = (*this->Job.Edges)[v->Edge];
-        edges = std::max(edges, edge.Error + std::max(edge.Gap, this->Gap));
+        edges = std::max(edges, edge.Error + std::max(edge.Gap, gap));
       }
     }
-    this->Mesh.CertifiedError = std::max(worst + this->Gap, edges);
-    this->Mesh.ModelGap = this->Gap;
+    this->Mesh.CertifiedError = std::max(worst, edges);
+    this->Mesh.ModelGap = gap;
+  }
+
+  double FinalError(FacetBound& bound, std::size_t k) const
+  {
+    const int leaf = this->Leaf[k];
+    const int* t = &this->Mesh.Triangles[3 * k];
+    if (leaf >= 0)
+    {
+      return this->Job.Tree->Leaves()[leaf].Error;
+    }
+    if (leaf == NoLeaf)
+    {
+      std::array<int, 3> key = { t[0], t[1], t[2] };
+      std::sort(key.begin(), key.end());
+      return this->BorderErrors.at(key);
+    }
+    const double known = (*this->Job.States)[-1 - leaf].Error;
+    return known >= 0.0 ? known : this->TriangleError(bound, t);
   }
 
   // Drops triangles at poles and turns reversed faces.
@@ -514,7 +564,11 @@ private:
   std::vector<int>& WeakLeaves;
   Vec2 Scale = Vec2(1.0, 1.0);
   std::vector<char> IsWholeLeaf;
-  double Flatness = 0.0;
+  static constexpr int NoLeaf = -2147483647 - 1;
+  /// Per triangle: the leaf whose own two triangles it is one of; -1 - leaf: another triangle inside
+  /// that leaf; NoLeaf: in the border zone.
+  std::vector<int> Leaf;
+  std::map<std::array<int, 3>, double> BorderErrors; ///< By ascending vertices.
 };
 } // namespace
 

@@ -7,168 +7,241 @@
 namespace nurbs
 {
 
-double SurfaceDistance(double height, double sliding, double slope)
-{
-  const double apart = std::sqrt(height * height + sliding * sliding);
-  return slope < 0.5 ? std::min(apart, height + sliding * slope) : apart;
-}
-
-FacetBound::FacetBound(
-  const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec2& uv0, const Vec2& uv1, const Vec2& uv2)
-  : X{ x0, x1, x2 }
-{
-  const Vec2 uv[3] = { uv0, uv1, uv2 };
-  this->N = (x1 - x0).cross(x2 - x0);
-  const double area = this->N.norm();
-  double longest = 0.0;
-  for (int i = 0; i < 3; ++i)
-  {
-    const int j = (i + 1) % 3;
-    this->Du[i] = std::abs(uv[j][0] - uv[i][0]);
-    this->Dv[i] = std::abs(uv[j][1] - uv[i][1]);
-    this->A = std::max(this->A, this->Du[i]);
-    this->B = std::max(this->B, this->Dv[i]);
-    longest = std::max(longest, (this->X[j] - this->X[i]).squaredNorm());
-  }
-  this->Plane = area > 1e-10 * longest;
-  if (this->Plane)
-  {
-    this->N /= area;
-    for (int i = 0; i < 3; ++i)
-    {
-      const Vec3 edge = this->X[(i + 1) % 3] - this->X[i];
-      const double length = edge.norm();
-      this->Out[i] = edge.cross(this->N) / length;
-      this->Altitude[i] = area / length;
-    }
-  }
-}
-
-void FacetBound::SetPole(int k)
-{
-  const int before = (k + 2) % 3;
-  const int base = (k + 1) % 3;
-  const bool along = this->Dv[base] <= 1e-9 * this->B;  // The base runs along u.
-  const bool across = this->Du[base] <= 1e-9 * this->A; // Or along v.
-  if (along)
-  {
-    this->Du[before] = this->Du[k] = 0.0;
-  }
-  else if (across)
-  {
-    this->Dv[before] = this->Dv[k] = 0.0;
-  }
-  this->Mixed = !along && !across;
-}
-
-void FacetBound::SetFourthCorner(const Vec3& x, double weight)
-{
-  // On the half without the fourth corner the bilinear interpolant of f is at most a quarter of its
-  // value there.
-  this->Mixed = false;
-  this->Twist = this->Plane ? 0.25 * weight * std::abs(this->N.dot(x - this->X[0])) : 0.0;
-}
-
 namespace
 {
-constexpr double Narrow = 1.0 / 64.0; // Boxes narrower than this share of a triangle add up.
+constexpr int Densest = 8; // Samples along a side: more of them are dearer than smaller triangles.
 
-double Effective(double extent, double width)
+double SegmentDistance(const Vec3& p, const Vec3& x, const Vec3& edge, double square)
 {
-  return width < Narrow * extent ? 2.0 * std::sqrt(extent * width) : extent;
+  const Vec3 d = p - x;
+  const double t = square > 0.0 ? std::min(1.0, std::max(0.0, d.dot(edge) / square)) : 0.0;
+  return (d - t * edge).squaredNorm();
+}
+
+ParameterBox BoxOf(const Vec2 (&uv)[3])
+{
+  return { std::min({ uv[0][0], uv[1][0], uv[2][0] }), std::max({ uv[0][0], uv[1][0], uv[2][0] }),
+    std::min({ uv[0][1], uv[1][1], uv[2][1] }), std::max({ uv[0][1], uv[1][1], uv[2][1] }) };
 }
 } // namespace
 
-void FacetBound::Add(const CurvatureRange& range, const ParameterBox& box)
+Facet::Facet(const Vec3& x0, const Vec3& x1, const Vec3& x2)
+  : X{ x0, x1, x2 }
 {
-  const double w = box.A();
-  const double h = box.B();
-  const bool sum = w < Narrow * this->A || h < Narrow * this->B;
-  const auto merge = [sum](double& target, double value) {
-    target = sum ? target + value : std::max(target, value);
-  };
-  const double a = Effective(this->A, w);
-  const double b = Effective(this->B, h);
-  merge(this->Full, DeviationBound(range, a, b));
-  if (!this->Plane)
-  {
-    this->Weight = 1.0;
-    return;
-  }
-  this->Weight = std::min(this->Weight, range.MinWeight);
-  merge(this->HeightOver, BoundDeviation(range, a, b, this->N, this->X[0], this->Mixed).Largest());
-}
-
-void FacetBound::AddEdges(const CurvatureRange& range, const ParameterBox& box)
-{
-  if (!this->Plane)
-  {
-    return;
-  }
-  const double w = box.A();
-  const double h = box.B();
-  const bool sum = w < Narrow * this->A || h < Narrow * this->B;
-  const auto merge = [sum](double& target, double value) {
-    target = sum ? target + value : std::max(target, value);
-  };
-  const double a = Effective(this->A, w);
-  const double b = Effective(this->B, h);
+  double longest = 0.0;
+  int base = 0;
   for (int i = 0; i < 3; ++i)
   {
-    merge(this->Along[i],
-      BoundDeviation(
-        range, Effective(this->Du[i], w), Effective(this->Dv[i], h), this->N, this->X[i])
-        .Largest());
-    merge(this->Across[i], BoundDeviation(range, a, b, this->Out[i], this->X[i]).Largest());
-    for (int j = 0; j < 3; ++j)
+    this->Edge[i] = this->X[(i + 1) % 3] - this->X[i];
+    this->Square[i] = this->Edge[i].squaredNorm();
+    base = this->Square[i] > this->Square[base] ? i : base;
+  }
+  longest = this->Square[base];
+  const Vec3 n = this->Edge[0].cross(this->Edge[1]);
+  const double area = n.norm();
+  this->Plane = area > 1e-8 * longest;
+  if (this->Plane)
+  {
+    this->N = n / area;
+    this->T[0] = this->Edge[base] / std::sqrt(longest);
+    this->T[1] = this->N.cross(this->T[0]);
+    for (int i = 0; i < 3; ++i)
     {
-      const double d = BoundDeviation(
-        range, Effective(this->Du[j], w), Effective(this->Dv[j], h), this->Out[i], this->X[i])
-                         .Above;
-      merge(i == j ? this->Bow[i] : this->Pull[i], d);
+      this->Outward[i] = this->Edge[i].cross(this->N);
     }
   }
 }
 
-int FacetBound::LongestEdge() const
+void Facet::Measure(const Vec3& p, double& height, double& outside) const
 {
-  return int(std::min_element(this->Altitude, this->Altitude + 3) - this->Altitude);
-}
-
-double FacetBound::SegmentDeviation() const
-{
-  if (!this->Plane)
+  height = 0.0;
+  outside = 0.0;
+  Vec3 foot = p;
+  bool outward[3] = { true, true, true };
+  if (this->Plane)
   {
-    return this->Full;
+    height = this->N.dot(p - this->X[0]);
+    foot -= height * this->N;
+    height = std::abs(height);
+    for (int i = 0; i < 3; ++i)
+    {
+      outward[i] = this->Outward[i].dot(foot - this->X[i]) > 0.0;
+    }
+    if (!outward[0] && !outward[1] && !outward[2])
+    {
+      return;
+    }
   }
-  const int longest = int(std::min_element(this->Altitude, this->Altitude + 3) - this->Altitude);
-  // Across the edge the third corner is an altitude away from zero: 2 altitudes cover its share in
-  // the rational case, where the weights differ by less than a factor of two in a cell.
-  const double across = this->Across[longest] / this->Weight + 2.0 * this->Altitude[longest];
-  return std::hypot(this->Height(), across);
-}
-
-double FacetBound::Sliding() const
-{
-  if (!this->Plane)
-  {
-    return this->Full;
-  }
-  double first = 0.0;
-  double second = 0.0;
+  double least = 1e300;
   for (int i = 0; i < 3; ++i)
   {
-    // Inside the triangle the other two edges pull a point out by at most 4 Pull per unit of its
-    // relative height over edge i; if the altitude outweighs that, only the edge's own bow counts.
-    if (4.0 * this->Pull[i] > this->Altitude[i] * this->Weight)
+    if (outward[i])
     {
-      return this->Full;
+      least = std::min(least, SegmentDistance(foot, this->X[i], this->Edge[i], this->Square[i]));
     }
-    const double bow = this->Bow[i] / this->Weight;
-    second = std::max(second, std::min(first, bow));
-    first = std::max(first, bow);
   }
-  return std::min(this->Full, first + second);
+  outside = std::sqrt(least);
+}
+
+void SampleDistance::Add(const Facet& facet, const Vec3& p)
+{
+  double height;
+  double outside;
+  facet.Measure(p, height, outside);
+  this->Height = std::max(this->Height, height);
+  this->Outside = std::max(this->Outside, outside);
+  this->Far = std::max(this->Far, std::hypot(height, outside));
+}
+
+Remainder::Remainder(const SecondDerivatives& second, double a, double b, const Facet& facet)
+{
+  this->Any = second.Bow(a, b);
+  if (facet.HasPlane())
+  {
+    this->Across = std::min(this->Any, second.Bow(a, b, facet.Normal()));
+    this->Along = std::min(this->Any,
+      std::hypot(second.Bow(a, b, facet.Tangent(0)), second.Bow(a, b, facet.Tangent(1))));
+  }
+  else
+  {
+    this->Along = this->Any;
+  }
+}
+
+double CombineError(const SampleDistance& samples, const Remainder& rest, int density)
+{
+  const double share = 1.0 / (density * density);
+  return std::min(
+    std::hypot(samples.Height + share * rest.Across, samples.Outside + share * rest.Along),
+    samples.Far + share * rest.Any);
+}
+
+FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
+  : Bound(bound)
+  , Evaluator(bound.Evaluator())
+  , Guaranteed(mode == ErrorMode::Guaranteed)
+{}
+
+double FacetBound::Error(
+  const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, int pole, double limit)
+{
+  const Facet facet(x[0], x[1], x[2]);
+  if (pole < 0)
+  {
+    return this->Piece(facet, uv, true, gap, limit);
+  }
+  // The region between the base and the pole's side, which runs along u or v.
+  const Vec2& a = uv[(pole + 1) % 3];
+  const Vec2& b = uv[(pole + 2) % 3];
+  const Vec2 base = (b - a).cwiseAbs();
+  const int d = base[0] >= base[1] ? 0 : 1;
+  Vec2 pa = uv[pole];
+  Vec2 pb = uv[pole];
+  pa[d] = a[d];
+  pb[d] = b[d];
+  const double error = this->Piece(facet, { pa, a, b }, false, gap, limit);
+  return error > limit ? error
+                       : std::max(error, this->Piece(facet, { pa, b, pb }, false, gap, limit));
+}
+
+double FacetBound::Piece(
+  const Facet& facet, const Vec2 (&uv)[3], bool inscribed, double gap, double limit)
+{
+  const ParameterBox box = BoxOf(uv);
+  for (int d = 0; d < 2; ++d)
+  {
+    const double low = d == 0 ? box.U0 : box.V0;
+    const double high = d == 0 ? box.U1 : box.V1;
+    const double eps = NegligibleSpan * (high - low);
+    for (double crease : this->Bound.Creases(d))
+    {
+      if (crease > low + eps && crease < high - eps)
+      {
+        return this->Cut(facet, uv, gap, limit, d, crease);
+      }
+    }
+  }
+  SampleDistance samples;
+  if (inscribed)
+  {
+    samples = { gap, gap, gap };
+  }
+  else
+  {
+    for (const Vec2& p : uv)
+    {
+      samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
+    }
+  }
+  const Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
+  double error = CombineError(samples, rest, 1);
+  if (error <= limit)
+  {
+    return error;
+  }
+  for (int k = 2; samples.Far <= limit; k *= 2)
+  {
+    for (int j = 0; j <= k; ++j)
+    {
+      for (int i = 0; i + j <= k; ++i)
+      {
+        if ((i | j) % 2 == 0 && (k > 2 || i + j == 0 || i == k || j == k))
+        {
+          continue; // A sample of the last round, or a corner.
+        }
+        const Vec2 p =
+          uv[0] + (uv[1] - uv[0]) * (double(i) / k) + (uv[2] - uv[0]) * (double(j) / k);
+        samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
+      }
+    }
+    if (!this->Guaranteed)
+    {
+      if (k == 4 || !this->Bound.HasGridLineInside(box))
+      {
+        return samples.Far;
+      }
+      continue;
+    }
+    error = std::min(error, CombineError(samples, rest, k));
+    if (error <= limit || k == Densest || CombineError(samples, rest, Densest) > limit)
+    {
+      return error;
+    }
+  }
+  return samples.Far;
+}
+
+// The two sides of a crease, each for itself.
+double FacetBound::Cut(
+  const Facet& facet, const Vec2 (&uv)[3], double gap, double limit, int dir, double crease)
+{
+  // The corner that is alone on its side, and where the crease cuts its two edges.
+  int alone = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const bool side = uv[i][dir] < crease;
+    if (side != (uv[(i + 1) % 3][dir] < crease) && side != (uv[(i + 2) % 3][dir] < crease))
+    {
+      alone = i;
+    }
+  }
+  const Vec2& a = uv[alone];
+  const Vec2& b = uv[(alone + 1) % 3];
+  const Vec2& c = uv[(alone + 2) % 3];
+  const auto at = [&](const Vec2& end) {
+    Vec2 p = a + (end - a) * ((crease - a[dir]) / (end[dir] - a[dir]));
+    p[dir] = crease;
+    return p;
+  };
+  const Vec2 ab = at(b);
+  const Vec2 ac = at(c);
+  double error = this->Piece(facet, { a, ab, ac }, false, gap, limit);
+  if (error <= limit)
+  {
+    error = std::max(error, this->Piece(facet, { ab, b, c }, false, gap, limit));
+  }
+  return error <= limit ? std::max(error, this->Piece(facet, { ab, c, ac }, false, gap, limit))
+                        : error;
 }
 
 } // namespace nurbs

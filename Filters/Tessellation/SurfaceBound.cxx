@@ -1,64 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceBound.h"
 
+#include "Basis.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 namespace nurbs
 {
 
-Deviation BoundDeviation(
-  const CurvatureRange& range, double a, double b, const Vec3& n, const Vec3& p0, bool mixed)
+double SecondDerivatives::Bow(double a, double b, const Vec3& d, bool mixed) const
 {
-  const Vec3 local = range.Frame.transpose() * n;
-  const double offset = std::abs(n.dot(p0 - range.Origin));
   const double scale[3] = { 0.125 * a * a, 0.25 * a * b, 0.125 * b * b };
-  Deviation d;
+  double above = 0.0;
+  double below = 0.0;
+  const Vec3 size = d.cwiseAbs();
   for (int k = 0; k < 3; ++k)
   {
-    if (scale[k] == 0.0 || (k == 1 && !mixed))
+    if (k == 1 && !mixed)
     {
       continue;
     }
-    double most = offset * range.Weight[k];
-    double least = -most;
-    for (int c = 0; c < 3; ++c)
-    {
-      most += local[c] * (local[c] > 0.0 ? range.High[k][c] : range.Low[k][c]);
-      least += local[c] * (local[c] > 0.0 ? range.Low[k][c] : range.High[k][c]);
-    }
-    const double up = std::max(0.0, -least); // Second derivatives below zero bend f up.
-    const double down = std::max(0.0, most);
-    // The mixed term has either sign.
-    d.Above += scale[k] * (k == 1 ? std::max(up, down) : up);
-    d.Below += scale[k] * (k == 1 ? std::max(up, down) : down);
+    const double c = d.dot(this->Center[k]);
+    const double r = size.dot(this->Radius[k]);
+    // Where the second derivative has one sign, S leaves L to one side only; saddles do not add up.
+    above += scale[k] * (k == 1 ? std::abs(c) + r : std::max(0.0, r - c));
+    below += scale[k] * (k == 1 ? std::abs(c) + r : std::max(0.0, r + c));
   }
-  return d;
+  return std::max(above, below);
 }
 
-double DeviationBound(const CurvatureRange& range, double a, double b)
+double SecondDerivatives::Bow(double a, double b) const
 {
   return 0.125 *
-    (a * a * range.Sliding[0] + 2.0 * a * b * range.Sliding[1] + b * b * range.Sliding[2]);
+    (a * a * this->Greatest(0) + 2.0 * a * b * this->Greatest(1) + b * b * this->Greatest(2));
 }
 
 namespace
 {
 // Rows of blossom coefficients: point i of the Bezier form of [a, b] in span `k` is the blossom at
 // a (p - i times) and b (i times), a combination of the p + 1 control points of the span.
-void BlossomMatrix(KnotView knots, int p, int k, double a, double b, std::vector<double>& m)
+void BlossomMatrix(KnotView knots, int p, int k, double a, double b, double* m)
 {
-  m.assign(std::size_t(p + 1) * (p + 1), 0.0);
-  std::vector<double> c(std::size_t(p + 1) * (p + 1));
+  double c[(MaxDegree + 1) * (MaxDegree + 1)];
   for (int row = 0; row <= p; ++row)
   {
-    std::fill(c.begin(), c.end(), 0.0);
+    std::fill_n(c, (p + 1) * (p + 1), 0.0);
     for (int i = 0; i <= p; ++i)
     {
-      c[std::size_t(i) * (p + 1) + i] = 1.0;
+      c[i * (p + 1) + i] = 1.0;
     }
     for (int r = 1; r <= p; ++r)
     {
@@ -68,618 +61,503 @@ void BlossomMatrix(KnotView knots, int p, int k, double a, double b, std::vector
         const double lo = knots[k - p + i];
         const double hi = knots[k + 1 + i - r];
         const double s = (t - lo) / (hi - lo);
-        for (int x = 0; x <= p; ++x)
+        for (int x = i - r; x <= i; ++x)
         {
-          double& target = c[std::size_t(i) * (p + 1) + x];
-          target = (1.0 - s) * c[std::size_t(i - 1) * (p + 1) + x] + s * target;
+          c[i * (p + 1) + x] = (1.0 - s) * c[(i - 1) * (p + 1) + x] + s * c[i * (p + 1) + x];
         }
       }
     }
-    std::copy_n(
-      c.begin() + std::size_t(p) * (p + 1), p + 1, m.begin() + std::size_t(row) * (p + 1));
-  }
-}
-} // namespace
-
-SurfaceBound::SurfaceBound(const SurfaceView& surface)
-  : Surface(surface)
-  , Prototype(surface)
-{
-  Box3 box;
-  const std::int64_t size = surface.Size();
-  double wmin = surface.Weight(0);
-  double wmax = wmin;
-  for (std::int64_t k = 0; k < size; ++k)
-  {
-    box.extend(surface.Point(k));
-    const double w = surface.Weight(k);
-    wmin = std::min(wmin, w);
-    wmax = std::max(wmax, w);
-  }
-  this->GreatestWeight = wmax;
-  this->IsRational = wmax - wmin > 1e-14 * wmax;
-  this->Center = box.center();
-  this->Diagonal = box.diagonal().norm();
-  this->Control.Count[0] = surface.Count[0];
-  this->Control.Count[1] = surface.Count[1];
-  this->Control.Points.resize(size);
-  // Weights that are all equal divide out: use 1 so that the polynomial bounds apply.
-  for (std::int64_t k = 0; k < size; ++k)
-  {
-    const double w = this->IsRational ? surface.Weight(k) : 1.0;
-    this->Control.Points[k] << (surface.Point(k) - this->Center) * w, w;
-  }
-  const bool manySpans = DistinctKnots(surface.Knots[0], surface.Degree[0]).size() > 2 ||
-    DistinctKnots(surface.Knots[1], surface.Degree[1]).size() > 2;
-  if (manySpans)
-  {
-    const KnotView* U = surface.Knots;
-    const int* p = surface.Degree;
-    this->First[0] = this->Derivative(this->Control, 0, U[0], p[0], 1);
-    this->First[1] = this->Derivative(this->Control, 1, U[1], p[1], 1);
-    this->Second[0] = this->Derivative(this->First[0], 0, U[0], p[0], 2);
-    this->Second[1] = this->Derivative(this->First[0], 1, U[1], p[1], 1);
-    this->Second[2] = this->Derivative(this->First[1], 1, U[1], p[1], 2);
-    this->HaveNets = true;
-    this->MakeBezierNet();
+    std::copy_n(c + p * (p + 1), p + 1, m + row * (p + 1));
   }
 }
 
-// Bezier coefficients of all spans: rows first, then columns, by the same blossoms as Extract.
-void SurfaceBound::MakeBezierNet()
+// Subdivisions of a knot span: bounds should follow a curve that turns by a right angle in it.
+int Subdivisions(int degree, std::size_t spans)
 {
-  const int* p = this->Surface.Degree;
-  Net rows;
-  Net* const stage[2] = { &rows, &this->BezierNet };
-  const Net* from = &this->Control;
-  for (int d = 0; d < 2; ++d)
+  if (degree == 1 || spans > 32)
   {
-    const KnotView& knots = this->Surface.Knots[d];
-    for (const Knot& knot : DistinctKnots(knots, p[d]))
-    {
-      this->Breaks[d].push_back(knot.Value);
-    }
-    const int spans = int(this->Breaks[d].size()) - 1;
-    Net& to = *stage[d];
-    to.Count[d] = spans * p[d] + 1;
-    to.Count[1 - d] = from->Count[1 - d];
-    to.Points.assign(std::size_t(to.Count[0]) * to.Count[1], Vec4::Zero());
-    std::vector<double> m;
-    for (int s = 0; s < spans; ++s)
-    {
-      const double a = this->Breaks[d][s];
-      const double b = this->Breaks[d][s + 1];
-      const int k = FindSpan(knots, p[d], 0.5 * (a + b));
-      BlossomMatrix(knots, p[d], k, a, b, m);
-      for (int line = 0; line < to.Count[1 - d]; ++line)
-      {
-        for (int i = 0; i <= p[d]; ++i)
-        {
-          Vec4 sum = Vec4::Zero();
-          for (int x = 0; x <= p[d]; ++x)
-          {
-            const int at = k - p[d] + x;
-            sum += m[std::size_t(i) * (p[d] + 1) + x] *
-              (d == 0 ? from->At(at, line) : from->At(line, at));
-          }
-          const int out = s * p[d] + i;
-          to.Points[d == 0 ? out + std::size_t(line) * to.Count[0]
-                           : line + std::size_t(out) * to.Count[0]] = sum;
-        }
-      }
-    }
-    from = stage[d];
+    return 1;
   }
+  return spans > 8 ? 2 : (degree >= 6 ? 8 : 4);
 }
 
-SurfaceBound::Roughness SurfaceBound::BoundRoughness(const ParameterBox& box, const Vec3& n,
-  const Vec3& p0, const Vec3 (&corners)[4], const double (&values)[4], double limit) const
+struct Interval3
 {
-  const int* p = this->Surface.Degree;
-  const double from[2] = { box.U0, box.V0 };
-  const double to[2] = { box.U1, box.V1 };
-  int lo[2];
-  int hi[2];
-  for (int d = 0; d < 2; ++d)
+  Vec3 Low = Vec3::Constant(1e300);
+  Vec3 High = Vec3::Constant(-1e300);
+  void Extend(const Vec3& x)
   {
-    const std::vector<double>& b = this->Breaks[d];
-    const double eps = NegligibleSpan * (to[d] - from[d]);
-    lo[d] = int(std::upper_bound(b.begin(), b.end(), from[d] + eps) - b.begin()) - 1;
-    hi[d] = int(std::lower_bound(b.begin(), b.end(), to[d] - eps) - b.begin());
-    lo[d] = std::max(0, std::min(lo[d], int(b.size()) - 2));
-    hi[d] = std::max(lo[d] + 1, std::min(hi[d], int(b.size()) - 1));
+    this->Low = this->Low.cwiseMin(x);
+    this->High = this->High.cwiseMax(x);
   }
-  const auto greville = [&](int d, int i) {
-    const int s = std::min(i / p[d], int(this->Breaks[d].size()) - 2);
-    const double t = double(i - s * p[d]) / p[d];
-    return ((1.0 - t) * this->Breaks[d][s] + t * this->Breaks[d][s + 1] - from[d]) /
-      (to[d] - from[d]);
-  };
-  const Vec3 origin = p0 - this->Center;
-  const Vec3 x0 = corners[0] - this->Center;
-  const Vec3 xu = corners[1] - corners[0];
-  const Vec3 xv = corners[2] - corners[0];
-  const Vec3 xuv = corners[3] - corners[1] - corners[2] + corners[0];
-  const double offset = n.dot(origin);
-  const double fu = values[1] - values[0];
-  const double fv = values[2] - values[0];
-  const double fuv = values[3] - values[1] - values[2] + values[0];
-  double height = 0.0;
-  double deviation = 0.0;
-  double wmin = 1e300;
-  // A coarse look first: most boxes that fail do so at once.
-  for (const int stride : { 7, 1 })
-  {
-    for (int j = lo[1] * p[1]; j <= hi[1] * p[1]; j += stride)
-    {
-      const double v = greville(1, j);
-      for (int i = lo[0] * p[0]; i <= hi[0] * p[0]; i += stride)
-      {
-        const double u = greville(0, i);
-        const Vec4& h = this->BezierNet.At(i, j);
-        const double f = n[0] * h[0] + n[1] * h[1] + n[2] * h[2] - h[3] * offset;
-        height = std::max(height, std::abs(f - (values[0] + u * fu + v * fv + u * v * fuv)));
-        const Vec3 x = x0 + u * xu + v * xv + (u * v) * xuv;
-        deviation = std::max(deviation, (h.head<3>() - h[3] * x).squaredNorm());
-        wmin = std::min(wmin, h[3]);
-      }
-      if (height > limit)
-      {
-        return { height, 1e300 };
-      }
-    }
-  }
-  // For a rational surface the product w x is no bilinear function; derivatives bound the sliding.
-  return { height, this->IsRational ? 1e300 : std::sqrt(deviation) / wmin };
-}
+};
 
-// The control net of the derivative of order `order` from that of order - 1: coefficient i belongs
-// to the same index window of knots, so that spans find their coefficients by index.
-SurfaceBound::Net SurfaceBound::Derivative(
-  const Net& net, int dir, KnotView knots, int degree, int order) const
+struct Interval1
 {
-  Net out;
-  out.Count[0] = net.Count[0] - (dir == 0);
-  out.Count[1] = net.Count[1] - (dir == 1);
-  const int q = degree - order + 1;
-  if (q <= 0)
+  double Low = 1e300;
+  double High = -1e300;
+  void Extend(double x)
   {
-    return Net();
+    this->Low = std::min(this->Low, x);
+    this->High = std::max(this->High, x);
   }
-  out.Points.resize(std::size_t(out.Count[0]) * out.Count[1]);
-  for (int j = 0; j < out.Count[1]; ++j)
-  {
-    for (int i = 0; i < out.Count[0]; ++i)
-    {
-      const int k = dir == 0 ? i : j;
-      const double d = knots[k + degree + 1] - knots[k + order];
-      const Vec4 difference =
-        dir == 0 ? net.At(i + 1, j) - net.At(i, j) : net.At(i, j + 1) - net.At(i, j);
-      out.Points[i + std::size_t(j) * out.Count[0]] =
-        d > 0.0 ? Vec4(difference * (q / d)) : Vec4(Vec4::Zero());
-    }
-  }
+};
+
+Interval3 operator*(const Interval1& s, const Interval3& x)
+{
+  Interval3 out;
+  out.Extend(s.Low * x.Low);
+  out.Extend(s.Low * x.High);
+  out.Extend(s.High * x.Low);
+  out.Extend(s.High * x.High);
   return out;
 }
 
-bool SurfaceBound::IsPlanar(double tolerance, Vec3& normal, double& distance) const
+Interval3 operator-(const Interval3& x, const Interval3& y)
 {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Vec3 mean = Vec3::Zero();
-  const std::size_t n = this->Control.Points.size();
-  for (const Vec4& h : this->Control.Points)
+  Interval3 out;
+  out.Low = x.Low - y.High;
+  out.High = x.High - y.Low;
+  return out;
+}
+
+// A derivative of the homogeneous Bezier form as intervals of its coefficients.
+struct Derivative
+{
+  Interval3 X;
+  Interval1 W;
+  Derivative() = default;
+  void Extend(const Vec4& h)
   {
-    mean += h.head<3>() / h[3];
+    this->X.Extend(h.head<3>());
+    this->W.Extend(h[3]);
   }
-  mean /= double(n);
-  for (const Vec4& h : this->Control.Points)
+};
+
+// Intervals of the second derivatives of one Bezier patch over an a x b box; `c` is changed.
+void BoundPatch(Vec4* c, int p, int q, double a, double b, bool rational, Interval3 (&out)[3])
+{
+  const int s = p + 1;
+  const int count = s * (q + 1);
+  const double f[5] = { p / a, q / b, p * (p - 1) / (a * a), p * q / (a * b),
+    q * (q - 1) / (b * b) };
+  Interval3 x;
+  Interval1 reciprocal; // Of the weight.
+  if (rational)
   {
-    const Vec3 d = h.head<3>() / h[3] - mean;
+    // Around the patch's own middle the products below are small.
+    const Vec3 middle = 0.25 *
+      (c[0].head<3>() / c[0][3] + c[p].head<3>() / c[p][3] +
+        c[count - s].head<3>() / c[count - s][3] + c[count - 1].head<3>() / c[count - 1][3]);
+    for (int k = 0; k < count; ++k)
+    {
+      c[k].head<3>() -= c[k][3] * middle;
+      x.Extend(c[k].head<3>() / c[k][3]);
+      reciprocal.Extend(1.0 / c[k][3]);
+    }
+  }
+  Derivative d[5]; // u, v, uu, uv, vv
+  for (int j = 0; j <= q; ++j)
+  {
+    for (int i = 0; i <= p; ++i)
+    {
+      const Vec4* h = c + i + j * s;
+      if (i < p && rational)
+      {
+        d[0].Extend((h[1] - h[0]) * f[0]);
+      }
+      if (j < q && rational)
+      {
+        d[1].Extend((h[s] - h[0]) * f[1]);
+      }
+      if (i + 2 <= p)
+      {
+        d[2].Extend((h[2] - 2.0 * h[1] + h[0]) * f[2]);
+      }
+      if (i < p && j < q)
+      {
+        d[3].Extend((h[s + 1] - h[s] - h[1] + h[0]) * f[3]);
+      }
+      if (j + 2 <= q)
+      {
+        d[4].Extend((h[2 * s] - 2.0 * h[s] + h[0]) * f[4]);
+      }
+    }
+  }
+  if (p < 2)
+  {
+    d[2].Extend(Vec4::Zero());
+  }
+  if (q < 2)
+  {
+    d[4].Extend(Vec4::Zero());
+  }
+  if (!rational)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      out[k] = d[2 + k].X;
+    }
+    return;
+  }
+  // S_u = (H_u - w_u S) / w, S_uv = (H_uv - w_u S_v - w_v S_u - w_uv S) / w.
+  const Interval3 su = reciprocal * (d[0].X - d[0].W * x);
+  const Interval3 sv = reciprocal * (d[1].X - d[1].W * x);
+  const auto twice = [](Interval1 w) { return Interval1{ 2.0 * w.Low, 2.0 * w.High }; };
+  out[0] = reciprocal * (d[2].X - twice(d[0].W) * su - d[2].W * x);
+  out[1] = reciprocal * (d[3].X - d[0].W * sv - d[1].W * su - d[3].W * x);
+  out[2] = reciprocal * (d[4].X - twice(d[1].W) * sv - d[4].W * x);
+}
+
+float Down(double x)
+{
+  const float f = float(x);
+  return double(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+float Up(double x)
+{
+  return -Down(-x);
+}
+} // namespace
+
+void SurfaceBound::Cell::Unite(const Cell& other)
+{
+  for (int k = 0; k < 9; ++k)
+  {
+    this->Low[k] = std::min(this->Low[k], other.Low[k]);
+    this->High[k] = std::max(this->High[k], other.High[k]);
+  }
+}
+
+SurfaceBound::SurfaceBound(
+  const SurfaceView& surface, const ParameterBox& used, const ParallelFor& parallel)
+  : Surface(surface)
+  , Prototype(surface)
+{
+  this->FitPlane();
+  this->FindCreases(used);
+  this->MakeBreaks(used);
+  this->MakeCells(parallel);
+  this->MakeLevels();
+}
+
+void SurfaceBound::FitPlane()
+{
+  const std::int64_t n = this->Surface.Size();
+  Box3 box;
+  Vec3 mean = Vec3::Zero();
+  for (std::int64_t k = 0; k < n; ++k)
+  {
+    const Vec3 x = this->Surface.Point(k);
+    box.extend(x);
+    mean += x / double(n);
+  }
+  this->Diagonal = box.diagonal().norm();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::int64_t k = 0; k < n; ++k)
+  {
+    const Vec3 d = this->Surface.Point(k) - mean;
     covariance += d * d.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);
-  normal = solver.eigenvectors().col(0).normalized();
-  distance = 0.0;
-  for (const Vec4& h : this->Control.Points)
+  this->Normal = solver.eigenvectors().col(0).normalized();
+  for (std::int64_t k = 0; k < n; ++k)
   {
-    distance = std::max(distance, std::abs(normal.dot(h.head<3>() / h[3] - mean)));
-    if (!(distance <= tolerance))
+    this->PlaneDistance =
+      std::max(this->PlaneDistance, std::abs(this->Normal.dot(this->Surface.Point(k) - mean)));
+  }
+}
+
+void SurfaceBound::FindCreases(const ParameterBox& used)
+{
+  const double low[2] = { used.U0, used.V0 };
+  const double high[2] = { used.U1, used.V1 };
+  for (int d = 0; d < 2; ++d)
+  {
+    const double eps = NegligibleSpan * (high[d] - low[d]);
+    for (double t : CreaseKnots(this->Surface.Knots[d], this->Surface.Degree[d]))
     {
-      return false;
+      if (t > low[d] + eps && t < high[d] - eps && !this->IsSmooth(d, t))
+      {
+        this->Crease[d].push_back(t);
+      }
+    }
+  }
+}
+
+// True if the first derivatives on both sides of a knot of full multiplicity agree. Along the knot
+// line their difference times w^2 is a polynomial of degree 2 q in every span, so that it vanishes
+// if it does so at 2 q + 1 places.
+bool SurfaceBound::IsSmooth(int dir, double knot) const
+{
+  const SurfaceView& s = this->Surface;
+  const int p = s.Degree[dir];
+  const KnotView& knots = s.Knots[dir];
+  const int after = FindSpan(knots, p, knot);
+  int before = after;
+  while (before > p && knots[before] >= knot)
+  {
+    --before;
+  }
+  if (after - before > p || knots[before] >= knot)
+  {
+    return false;
+  }
+  double ders[2][2 * (MaxDegree + 1)];
+  EvaluateBasisDerivatives(knots, p, before, knot, 1, ders[0]);
+  EvaluateBasisDerivatives(knots, p, after, knot, 1, ders[1]);
+  const int q = s.Degree[1 - dir];
+  const KnotView& across = s.Knots[1 - dir];
+  const std::vector<Knot> lines = DistinctKnots(across, q);
+  double basis[MaxDegree + 1];
+  for (std::size_t line = 0; line + 1 < lines.size(); ++line)
+  {
+    for (int k = 0; k <= 2 * q; ++k)
+    {
+      const double t =
+        lines[line].Value + (lines[line + 1].Value - lines[line].Value) * (0.5 + k) / (2 * q + 1);
+      const int span = FindSpan(across, q, t);
+      EvaluateBasis(across, q, span, t, basis);
+      Vec3 slope[2];
+      for (int side = 0; side < 2; ++side)
+      {
+        Vec4 h = Vec4::Zero();
+        Vec4 d = Vec4::Zero();
+        const int first = (side == 0 ? before : after) - p;
+        for (int i = 0; i <= p; ++i)
+        {
+          Vec4 sum = Vec4::Zero();
+          for (int j = 0; j <= q; ++j)
+          {
+            const std::int64_t a = first + i;
+            const std::int64_t b = span - q + j;
+            const std::int64_t at = dir == 0 ? a + b * s.Count[0] : b + a * s.Count[0];
+            sum += basis[j] * s.Homogeneous(at);
+          }
+          h += ders[side][i] * sum;
+          d += ders[side][p + 1 + i] * sum;
+        }
+        slope[side] = (d.head<3>() - d[3] * (h.head<3>() / h[3])) / h[3];
+      }
+      if ((slope[1] - slope[0]).norm() > 1e-9 * (slope[0].norm() + slope[1].norm()) + 1e-300)
+      {
+        return false;
+      }
     }
   }
   return true;
 }
 
-bool SurfaceBound::InOneSpan(const ParameterBox& box) const
+void SurfaceBound::MakeBreaks(const ParameterBox& used)
+{
+  const double low[2] = { used.U0, used.V0 };
+  const double high[2] = { used.U1, used.V1 };
+  for (int d = 0; d < 2; ++d)
+  {
+    std::vector<double> knots{ low[d] };
+    for (const Knot& knot : DistinctKnots(this->Surface.Knots[d], this->Surface.Degree[d]))
+    {
+      if (knot.Value > low[d] && knot.Value < high[d])
+      {
+        knots.push_back(knot.Value);
+      }
+    }
+    knots.push_back(high[d]);
+    const int n = Subdivisions(this->Surface.Degree[d], knots.size() - 1);
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        this->Breaks[d].push_back(knots[k] + (knots[k + 1] - knots[k]) * i / n);
+      }
+    }
+    this->Breaks[d].push_back(high[d]);
+  }
+}
+
+void SurfaceBound::MakeCells(const ParallelFor& parallel)
+{
+  const SurfaceView& s = this->Surface;
+  const int p = s.Degree[0];
+  const int q = s.Degree[1];
+  this->Levels.resize(1);
+  Level& level = this->Levels[0];
+  const int nu = int(this->Breaks[0].size()) - 1;
+  const int nv = int(this->Breaks[1].size()) - 1;
+  level.Count[0] = nu;
+  level.Count[1] = nv;
+  level.Cells.resize(std::size_t(nu) * nv);
+  const bool rational = s.IsRational();
+  std::vector<int> span(nu);
+  std::vector<double> mu(std::size_t(nu) * (p + 1) * (p + 1));
+  for (int i = 0; i < nu; ++i)
+  {
+    const double a = this->Breaks[0][i];
+    const double b = this->Breaks[0][i + 1];
+    span[i] = FindSpan(s.Knots[0], p, 0.5 * (a + b));
+    BlossomMatrix(s.Knots[0], p, span[i], a, b, &mu[std::size_t(i) * (p + 1) * (p + 1)]);
+  }
+  const int firstColumn = span.front() - p;
+  const int columns = span.back() - firstColumn + 1;
+  parallel(0, nv, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Vec4> rows(std::size_t(columns) * (q + 1));
+    std::vector<double> mv(std::size_t(q + 1) * (q + 1));
+    std::vector<Vec4> patch(std::size_t(p + 1) * (q + 1));
+    for (std::int64_t j = begin; j < end; ++j)
+    {
+      const double v0 = this->Breaks[1][j];
+      const double v1 = this->Breaks[1][j + 1];
+      const int kv = FindSpan(s.Knots[1], q, 0.5 * (v0 + v1));
+      BlossomMatrix(s.Knots[1], q, kv, v0, v1, mv.data());
+      std::fill(rows.begin(), rows.end(), Vec4::Zero());
+      for (int y = 0; y <= q; ++y)
+      {
+        for (int x = 0; x < columns; ++x)
+        {
+          const std::int64_t at = firstColumn + x + std::int64_t(kv - q + y) * s.Count[0];
+          Vec4 h = s.Homogeneous(at);
+          if (!rational)
+          {
+            h << s.Point(at), 1.0;
+          }
+          for (int r = 0; r <= q; ++r)
+          {
+            rows[std::size_t(r) * columns + x] += mv[std::size_t(r) * (q + 1) + y] * h;
+          }
+        }
+      }
+      for (int i = 0; i < nu; ++i)
+      {
+        const double* m = &mu[std::size_t(i) * (p + 1) * (p + 1)];
+        for (int r = 0; r <= q; ++r)
+        {
+          const Vec4* row = &rows[std::size_t(r) * columns + span[i] - p - firstColumn];
+          for (int c = 0; c <= p; ++c)
+          {
+            Vec4 sum = Vec4::Zero();
+            for (int x = 0; x <= p; ++x)
+            {
+              sum += m[c * (p + 1) + x] * row[x];
+            }
+            patch[std::size_t(r) * (p + 1) + c] = sum;
+          }
+        }
+        Interval3 bounds[3];
+        BoundPatch(patch.data(), p, q, this->Breaks[0][i + 1] - this->Breaks[0][i], v1 - v0,
+          rational, bounds);
+        Cell& cell = level.Cells[i + std::size_t(j) * nu];
+        for (int k = 0; k < 9; ++k)
+        {
+          cell.Low[k] = Down(bounds[k / 3].Low[k % 3]);
+          cell.High[k] = Up(bounds[k / 3].High[k % 3]);
+        }
+      }
+    }
+  });
+}
+
+void SurfaceBound::MakeLevels()
+{
+  while (this->Levels.back().Count[0] * std::int64_t(this->Levels.back().Count[1]) > 64)
+  {
+    const Level& fine = this->Levels.back();
+    Level coarse;
+    for (int d = 0; d < 2; ++d)
+    {
+      coarse.Count[d] = (fine.Count[d] + 1) / 2;
+    }
+    coarse.Cells.resize(std::size_t(coarse.Count[0]) * coarse.Count[1]);
+    for (int j = 0; j < fine.Count[1]; ++j)
+    {
+      for (int i = 0; i < fine.Count[0]; ++i)
+      {
+        Cell& target = coarse.Cells[i / 2 + std::size_t(j / 2) * coarse.Count[0]];
+        const Cell& source = fine.Cells[i + std::size_t(j) * fine.Count[0]];
+        if (i % 2 == 0 && j % 2 == 0)
+        {
+          target = source;
+        }
+        else
+        {
+          target.Unite(source);
+        }
+      }
+    }
+    this->Levels.push_back(std::move(coarse));
+  }
+}
+
+// First and last cell of the grid that [low, high] touches by more than rounding. False: one cell.
+bool SurfaceBound::Find(int dir, double low, double high, int& first, int& last) const
+{
+  const std::vector<double>& b = this->Breaks[dir];
+  const double eps = NegligibleSpan * (high - low);
+  const int most = int(b.size()) - 2;
+  first = int(std::upper_bound(b.begin(), b.end(), low + eps) - b.begin()) - 1;
+  first = std::max(0, std::min(first, most));
+  last = first;
+  while (last < most && b[last + 1] < high - eps)
+  {
+    ++last;
+  }
+  return last > first;
+}
+
+SecondDerivatives SurfaceBound::Over(const ParameterBox& box) const
+{
+  int i0, i1, j0, j1;
+  this->Find(0, box.U0, box.U1, i0, i1);
+  this->Find(1, box.V0, box.V1, j0, j1);
+  const Level* level = this->Levels.data();
+  while ((i1 - i0 + 1) * std::int64_t(j1 - j0 + 1) > 64)
+  {
+    ++level;
+    i0 >>= 1;
+    i1 >>= 1;
+    j0 >>= 1;
+    j1 >>= 1;
+  }
+  Cell all = level->Cells[i0 + std::size_t(j0) * level->Count[0]];
+  for (int j = j0; j <= j1; ++j)
+  {
+    for (int i = i0 + (j == j0); i <= i1; ++i)
+    {
+      all.Unite(level->Cells[i + std::size_t(j) * level->Count[0]]);
+    }
+  }
+  SecondDerivatives out;
+  for (int k = 0; k < 9; ++k)
+  {
+    out.Center[k / 3][k % 3] = 0.5 * (double(all.High[k]) + double(all.Low[k]));
+    out.Radius[k / 3][k % 3] = 0.5 * (double(all.High[k]) - double(all.Low[k]));
+  }
+  return out;
+}
+
+bool SurfaceBound::HasGridLineInside(const ParameterBox& box) const
+{
+  int first, last;
+  return this->Find(0, box.U0, box.U1, first, last) || this->Find(1, box.V0, box.V1, first, last);
+}
+
+bool SurfaceBound::CrossesCrease(const ParameterBox& box) const
 {
   const double low[2] = { box.U0, box.V0 };
   const double high[2] = { box.U1, box.V1 };
   for (int d = 0; d < 2; ++d)
   {
-    const KnotView& knots = this->Surface.Knots[d];
-    const int span = FindSpan(knots, this->Surface.Degree[d], 0.5 * (low[d] + high[d]));
     const double eps = NegligibleSpan * (high[d] - low[d]);
-    if (low[d] < knots[span] - eps || high[d] > knots[span + 1] + eps)
+    for (double crease : this->Crease[d])
     {
-      return false;
-    }
-  }
-  return true;
-}
-
-void SurfaceBound::Extract(const ParameterBox& box, BezierPatch& patch) const
-{
-  const int p = this->Surface.Degree[0];
-  const int q = this->Surface.Degree[1];
-  const int ku = FindSpan(this->Surface.Knots[0], p, 0.5 * (box.U0 + box.U1));
-  const int kv = FindSpan(this->Surface.Knots[1], q, 0.5 * (box.V0 + box.V1));
-  std::vector<double> mu;
-  std::vector<double> mv;
-  BlossomMatrix(this->Surface.Knots[0], p, ku, box.U0, box.U1, mu);
-  BlossomMatrix(this->Surface.Knots[1], q, kv, box.V0, box.V1, mv);
-  std::vector<Vec4> rows(std::size_t(p + 1) * (q + 1));
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      Vec4 sum = Vec4::Zero();
-      for (int x = 0; x <= p; ++x)
+      if (crease > low[d] + eps && crease < high[d] - eps)
       {
-        sum += mu[std::size_t(i) * (p + 1) + x] * this->Control.At(ku - p + x, kv - q + j);
-      }
-      rows[i + std::size_t(j) * (p + 1)] = sum;
-    }
-  }
-  patch.Degree[0] = p;
-  patch.Degree[1] = q;
-  patch.U = { box.U0, box.U1 };
-  patch.V = { box.V0, box.V1 };
-  patch.Points.assign(rows.size(), Vec4::Zero());
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int y = 0; y <= q; ++y)
-    {
-      const double f = mv[std::size_t(j) * (q + 1) + y];
-      for (int i = 0; i <= p; ++i)
-      {
-        patch.Points[i + std::size_t(j) * (p + 1)] += f * rows[i + std::size_t(y) * (p + 1)];
+        return true;
       }
     }
   }
-}
-
-void SurfaceBound::Evaluate(
-  const ParameterBox& box, const BezierPatch* patch, const Vec3& origin, Coefficients& out) const
-{
-  out.Origin = origin;
-  if (patch)
-  {
-    FromBezier(box, *patch, origin - this->Center, out, this->IsRational);
-  }
-  else
-  {
-    this->FromNets(box, origin - this->Center, out);
-  }
-}
-
-namespace
-{
-// H'' relative to `origin`: the weight's share moves with it.
-inline Vec4 Shift(const Vec4& h, const Vec3& origin)
-{
-  return Vec4(h[0] - h[3] * origin[0], h[1] - h[3] * origin[1], h[2] - h[3] * origin[2], h[3]);
-}
-} // namespace
-
-void SurfaceBound::FromBezier(const ParameterBox& box, const BezierPatch& patch, const Vec3& origin,
-  Coefficients& out, bool rational)
-{
-  const int p = patch.Degree[0];
-  const int q = patch.Degree[1];
-  const double a = box.A();
-  const double b = box.B();
-  const Vec4* P = patch.Points.data();
-  const int s = p + 1;
-  const double f[3] = { p * (p - 1) / (a * a), p * q / (a * b), q * (q - 1) / (b * b) };
-  for (auto& second : out.Second)
-  {
-    second.clear();
-  }
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      const Vec4* c = P + i + j * s;
-      if (i + 2 <= p)
-      {
-        out.Second[0].push_back((c[2] - 2.0 * c[1] + c[0]) * f[0]);
-      }
-      if (i < p && j < q)
-      {
-        out.Second[1].push_back((c[s + 1] - c[s] - c[1] + c[0]) * f[1]);
-      }
-      if (j + 2 <= q)
-      {
-        out.Second[2].push_back((c[2 * s] - 2.0 * c[s] + c[0]) * f[2]);
-      }
-    }
-  }
-  out.MinWeight = 1.0;
-  out.Separable = false;
-  out.WeightU = out.WeightV = out.FirstU = out.FirstV = out.Radius = 0.0;
-  if (!rational)
-  {
-    return;
-  }
-  SeparableSliding(box, patch, out);
-  double wmin = P[0][3];
-  double radius = 0.0;
-  for (const Vec4& h : patch.Points)
-  {
-    wmin = std::min(wmin, h[3]);
-    radius = std::max(radius, (h.head<3>() / h[3] - origin).squaredNorm());
-  }
-  double fu = 0.0;
-  double fv = 0.0;
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      const Vec4* c = P + i + j * s;
-      if (i < p)
-      {
-        const Vec4 d = Shift(c[1] - c[0], origin);
-        fu = std::max(fu, d.head<3>().squaredNorm());
-        out.WeightU = std::max(out.WeightU, std::abs(d[3]));
-      }
-      if (j < q)
-      {
-        const Vec4 d = Shift(c[s] - c[0], origin);
-        fv = std::max(fv, d.head<3>().squaredNorm());
-        out.WeightV = std::max(out.WeightV, std::abs(d[3]));
-      }
-    }
-  }
-  out.FirstU = std::sqrt(fu) * p / a;
-  out.FirstV = std::sqrt(fv) * q / b;
-  out.WeightU *= p / a;
-  out.WeightV *= q / b;
-  out.MinWeight = wmin;
-  out.Radius = std::sqrt(radius);
-  for (auto& second : out.Second)
-  {
-    for (Vec4& h : second)
-    {
-      h = Shift(h, origin);
-    }
-  }
-}
-
-void SurfaceBound::FromNets(const ParameterBox& box, const Vec3& origin, Coefficients& out) const
-{
-  const int* p = this->Surface.Degree;
-  int lo[2];
-  int hi[2]; // First and last span that the box touches.
-  const double from[2] = { box.U0, box.V0 };
-  const double to[2] = { box.U1, box.V1 };
-  for (int d = 0; d < 2; ++d)
-  {
-    const KnotView& knots = this->Surface.Knots[d];
-    lo[d] = FindSpan(knots, p[d], from[d]);
-    hi[d] = FindSpan(knots, p[d], to[d]);
-    const double eps = NegligibleSpan * (to[d] - from[d]);
-    while (hi[d] > lo[d] && knots[hi[d]] >= to[d] - eps)
-    {
-      --hi[d];
-    }
-    while (lo[d] < hi[d] && knots[lo[d] + 1] <= from[d] + eps)
-    {
-      ++lo[d];
-    }
-  }
-  // Derivatives of order (ou, ov) have coefficients span - p .. span - o in the indexing above.
-  const auto collect = [&](const Net& net, int ou, int ov, auto&& use) {
-    for (int j = lo[1] - p[1]; j <= hi[1] - ov; ++j)
-    {
-      for (int i = lo[0] - p[0]; i <= hi[0] - ou; ++i)
-      {
-        use(net.At(i, j));
-      }
-    }
-  };
-  const int orders[3][2] = { { 2, 0 }, { 1, 1 }, { 0, 2 } };
-  for (int k = 0; k < 3; ++k)
-  {
-    out.Second[k].clear();
-    if (!this->Second[k].Points.empty())
-    {
-      collect(this->Second[k], orders[k][0], orders[k][1],
-        [&](const Vec4& h) { out.Second[k].push_back(h); });
-    }
-  }
-  out.MinWeight = 1.0;
-  out.Separable = false;
-  out.WeightU = out.WeightV = out.FirstU = out.FirstV = out.Radius = 0.0;
-  if (!this->IsRational)
-  {
-    return;
-  }
-  double wmin = 1e300;
-  double radius = 0.0;
-  collect(this->Control, 0, 0, [&](const Vec4& h) {
-    wmin = std::min(wmin, h[3]);
-    radius = std::max(radius, (h.head<3>() / h[3] - origin).squaredNorm());
-  });
-  double f[2] = { 0.0, 0.0 };
-  double w[2] = { 0.0, 0.0 };
-  for (int d = 0; d < 2; ++d)
-  {
-    collect(this->First[d], d == 0, d == 1, [&](const Vec4& h) {
-      const Vec4 x = Shift(h, origin);
-      f[d] = std::max(f[d], x.head<3>().squaredNorm());
-      w[d] = std::max(w[d], std::abs(x[3]));
-    });
-  }
-  out.FirstU = std::sqrt(f[0]);
-  out.FirstV = std::sqrt(f[1]);
-  out.WeightU = w[0];
-  out.WeightV = w[1];
-  out.MinWeight = wmin;
-  out.Radius = std::sqrt(radius);
-  for (auto& second : out.Second)
-  {
-    for (Vec4& h : second)
-    {
-      h = Shift(h, origin);
-    }
-  }
-}
-
-CurvatureRange SurfaceBound::Range(const Coefficients& c, const Vec3& normal, const Vec3& along)
-{
-  CurvatureRange range;
-  range.Origin = c.Origin;
-  range.MinWeight = c.MinWeight;
-  const Vec3 tangent = along - normal * normal.dot(along);
-  const double size = tangent.norm();
-  const Vec3 t =
-    size > 0.0 && normal.squaredNorm() > 0.0 ? Vec3(tangent / size) : Vec3(Vec3::UnitX());
-  if (normal.squaredNorm() > 0.0 && size > 0.0)
-  {
-    range.Frame << normal, t, normal.cross(t);
-  }
-  else
-  {
-    range.Frame.setIdentity();
-  }
-  double length[3] = { 0, 0, 0 };
-  for (int k = 0; k < 3; ++k)
-  {
-    bool first = true;
-    for (const Vec4& h : c.Second[k])
-    {
-      const Vec3 local = range.Frame.transpose() * h.head<3>();
-      for (int d = 0; d < 3; ++d)
-      {
-        range.Low[k][d] = first ? local[d] : std::min(range.Low[k][d], local[d]);
-        range.High[k][d] = first ? local[d] : std::max(range.High[k][d], local[d]);
-      }
-      length[k] = std::max(length[k], local.squaredNorm());
-      range.Weight[k] = std::max(range.Weight[k], std::abs(h[3]));
-      first = false;
-    }
-    length[k] = std::sqrt(length[k]);
-  }
-  // S_xy = (H_xy - w_xy S - w_x S_y - w_y S_x) / w, |S| <= Radius, |S_x| <= (|H_x| + |w_x| R) / w.
-  const double su = (c.FirstU + c.WeightU * c.Radius) / c.MinWeight;
-  const double sv = (c.FirstV + c.WeightV * c.Radius) / c.MinWeight;
-  const double cross[3] = { 2.0 * c.WeightU * su, c.WeightU * sv + c.WeightV * su,
-    2.0 * c.WeightV * sv };
-  for (int k = 0; k < 3; ++k)
-  {
-    range.Sliding[k] = (length[k] + range.Weight[k] * c.Radius + cross[k]) / c.MinWeight;
-    if (c.Separable)
-    {
-      range.Sliding[k] = std::min(range.Sliding[k], c.Sliding[k]);
-    }
-  }
-  return range;
-}
-
-namespace
-{
-// Greatest |C''| of a rational Bezier curve over a parameter interval of length `step`, by its
-// homogeneous form around its own middle; `ratio` receives greatest weight / least weight.
-double CurveSecond(const Vec4* points, int degree, int stride, double step, double& ratio)
-{
-  const Vec4& first = points[0];
-  const Vec4& last = points[degree * stride];
-  const Vec3 origin = 0.5 * (first.head<3>() / first[3] + last.head<3>() / last[3]);
-  double wmin = first[3];
-  double wmax = first[3];
-  double radius = 0.0;
-  double d1 = 0.0;
-  double w1 = 0.0;
-  double d2 = 0.0;
-  double w2 = 0.0;
-  for (int i = 0; i <= degree; ++i)
-  {
-    const Vec4& h = points[i * stride];
-    wmin = std::min(wmin, h[3]);
-    wmax = std::max(wmax, h[3]);
-    radius = std::max(radius, (h.head<3>() / h[3] - origin).norm());
-    if (i < degree)
-    {
-      const Vec4 d = Shift(points[(i + 1) * stride] - h, origin);
-      d1 = std::max(d1, d.head<3>().norm());
-      w1 = std::max(w1, std::abs(d[3]));
-    }
-    if (i + 1 < degree)
-    {
-      const Vec4 d = Shift(points[(i + 2) * stride] - 2.0 * points[(i + 1) * stride] + h, origin);
-      d2 = std::max(d2, d.head<3>().norm());
-      w2 = std::max(w2, std::abs(d[3]));
-    }
-  }
-  ratio = wmax / wmin;
-  const double p = degree / step;
-  const double q = p * (degree - 1) / step;
-  const double speed = p * (d1 + w1 * radius) / wmin;
-  return (q * (d2 + w2 * radius) + 2.0 * p * w1 * speed) / wmin;
-}
-} // namespace
-
-// If w(u, v) = a(u) b(v), as on every surface of revolution or extrusion, then S is a convex
-// combination of its rows' curves with factors that depend on v alone, so |S_uu| is at most that of
-// a row; each row is bounded around its own middle. The mixed derivative: |S_uv| <= p q r_u^2 r_v^2
-// max |P_i+1,j+1 - P_i+1,j - P_i,j+1 + P_ij|, r the ratio of weights (Floater's bound, twice).
-void SurfaceBound::SeparableSliding(
-  const ParameterBox& box, const BezierPatch& patch, Coefficients& out)
-{
-  const int p = patch.Degree[0];
-  const int q = patch.Degree[1];
-  const int s = p + 1;
-  const std::vector<Vec4>& P = patch.Points;
-  out.Separable = true;
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      const double product = P[i][3] * P[std::size_t(j) * s][3];
-      if (std::abs(P[i + std::size_t(j) * s][3] * P[0][3] - product) > 1e-11 * product)
-      {
-        out.Separable = false;
-        return;
-      }
-    }
-  }
-  double ru = 1.0;
-  double rv = 1.0;
-  out.Sliding[0] = out.Sliding[1] = out.Sliding[2] = 0.0;
-  for (int j = 0; j <= q; ++j)
-  {
-    out.Sliding[0] =
-      std::max(out.Sliding[0], CurveSecond(&P[std::size_t(j) * s], p, 1, box.A(), ru));
-  }
-  for (int i = 0; i <= p; ++i)
-  {
-    out.Sliding[2] = std::max(out.Sliding[2], CurveSecond(&P[i], q, s, box.B(), rv));
-  }
-  const auto at = [&](int i, int j) -> Vec3 {
-    const Vec4& h = P[i + std::size_t(j) * s];
-    return h.head<3>() / h[3];
-  };
-  for (int j = 0; j < q; ++j)
-  {
-    for (int i = 0; i < p; ++i)
-    {
-      const Vec3 d = at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j);
-      out.Sliding[1] = std::max(out.Sliding[1], d.norm());
-    }
-  }
-  out.Sliding[1] *= p * q * ru * ru * rv * rv / (box.A() * box.B());
+  return false;
 }
 
 } // namespace nurbs

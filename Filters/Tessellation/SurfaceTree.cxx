@@ -12,7 +12,8 @@ namespace nurbs
 namespace
 {
 constexpr int FractionBits = 20;
-constexpr double EvenShare = 0.75; // Mean demand over greatest demand from which on lines fit all.
+constexpr double EvenShare = 0.75;  // Mean demand over greatest demand from which on lines fit all.
+constexpr double BoundSlack = 1.02; // By how much bounds exceed the sampled error, typically.
 constexpr std::size_t FewSpans = 16; // Fewer are sampled too thinly to tell.
 constexpr LineCode One = LineCode(1) << FractionBits;
 
@@ -27,7 +28,7 @@ struct DemandSamples
 
 int SamplesOfSpan(int degree, std::size_t spans)
 {
-  const int wish = degree == 1 ? 1 : (degree <= 3 ? 2 : degree);
+  const int wish = degree == 1 ? 1 : (degree <= 3 ? 3 : degree);
   return spans > 24 ? std::min(wish, 2) : wish;
 }
 
@@ -166,43 +167,42 @@ void ShareTolerance(DemandSamples& u, DemandSamples& v)
   }
 }
 
-// Lines of one direction: every span boundary, and in each span the quantiles of its demand.
-void PlaceLines(const std::vector<double>& breaks, const DemandSamples& s, double margin, bool even,
+// Lines of one direction: every stop, and between two of them the quantiles of the demand.
+void PlaceLines(const std::vector<double>& stops, const DemandSamples& s, double margin, bool even,
   std::vector<double>& lines, std::vector<double>& demand)
 {
-  lines.assign(1, breaks.front());
+  lines.assign(1, stops.front());
   demand.assign(1, 0.0);
   std::size_t cell = 0;
-  const std::size_t perSpan = s.Wanted.size() / (breaks.size() - 1);
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+  for (std::size_t k = 0; k + 1 < stops.size(); ++k)
   {
     double total = 0.0;
-    for (std::size_t i = cell; i < cell + perSpan; ++i)
+    std::size_t end = cell;
+    for (; end < s.Wanted.size() && s.At[end] < stops[k + 1]; ++end)
     {
-      total += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
+      total += s.Wanted[end] * (s.At[end + 1] - s.At[end]);
     }
     const double start = demand.back();
     const int n = even ? std::min(20000, std::max(1, int(std::ceil(margin * total - 0.02)))) : 1;
     double done = 0.0;
-    std::size_t i = cell;
     for (int m = 1; m < n; ++m)
     {
       const double target = total * m / n;
-      while (done + s.Wanted[i] * (s.At[i + 1] - s.At[i]) < target && i + 1 < cell + perSpan)
+      while (cell + 1 < end && done + s.Wanted[cell] * (s.At[cell + 1] - s.At[cell]) < target)
       {
-        done += s.Wanted[i] * (s.At[i + 1] - s.At[i]);
-        ++i;
+        done += s.Wanted[cell] * (s.At[cell + 1] - s.At[cell]);
+        ++cell;
       }
-      const double t = std::min(s.At[i + 1], s.At[i] + (target - done) / s.Wanted[i]);
+      const double t = std::min(s.At[cell + 1], s.At[cell] + (target - done) / s.Wanted[cell]);
       if (t > lines.back())
       {
         lines.push_back(t);
         demand.push_back(start + target);
       }
     }
-    lines.push_back(breaks[k + 1]);
+    lines.push_back(stops[k + 1]);
     demand.push_back(start + total);
-    cell += perSpan;
+    cell = end;
   }
 }
 } // namespace
@@ -214,17 +214,14 @@ void SurfaceTree::MakeLines(
   const double low[2] = { domain.U0, domain.V0 };
   const double high[2] = { domain.U1, domain.V1 };
   std::vector<double> breaks[2];
+  std::vector<double> stops[2];
   for (int d = 0; d < 2; ++d)
   {
     breaks[d] = SpanBreaks(surface.Knots[d], surface.Degree[d], low[d], high[d]);
-    this->Crease[d].clear();
-    for (double t : CreaseKnots(surface.Knots[d], surface.Degree[d]))
-    {
-      if (std::binary_search(breaks[d].begin() + 1, breaks[d].end() - 1, t))
-      {
-        this->Crease[d].push_back(t);
-      }
-    }
+    this->Crease[d] = bound.Creases(d);
+    stops[d] = this->Crease[d];
+    stops[d].insert(stops[d].begin(), low[d]);
+    stops[d].push_back(high[d]);
   }
   if (goal.Method == SubdivisionMethod::KdTree)
   {
@@ -234,26 +231,21 @@ void SurfaceTree::MakeLines(
     ShareTolerance(u, v);
     const bool evenU = breaks[0].size() <= FewSpans || IsEven(u);
     const bool evenV = breaks[1].size() <= FewSpans || IsEven(v);
-    double margin = 1.04;
-    for (int attempt = 0; attempt < 4; ++attempt)
+    const auto place = [&](double margin) {
+      PlaceLines(evenU ? stops[0] : breaks[0], u, margin, evenU, this->Line[0], this->Demand[0]);
+      PlaceLines(evenV ? stops[1] : breaks[1], v, margin, evenV, this->Line[1], this->Demand[1]);
+    };
+    place(1.0);
+    if (evenU || evenV)
     {
-      PlaceLines(breaks[0], u, margin, evenU, this->Line[0], this->Demand[0]);
-      PlaceLines(breaks[1], v, margin, evenV, this->Line[1], this->Demand[1]);
-      const double excess = this->TypicalExcess(bound, goal);
-      if (excess <= 1.0 || goal.Error == ErrorMode::Estimated)
-      {
-        break;
-      }
-      margin *= std::min(1.3, 1.01 * std::sqrt(excess));
+      place(this->BestMargin(bound, goal, evenU && evenV));
     }
   }
   else
   {
     for (int d = 0; d < 2; ++d)
     {
-      this->Line[d] = this->Crease[d];
-      this->Line[d].insert(this->Line[d].begin(), low[d]);
-      this->Line[d].push_back(high[d]);
+      this->Line[d] = stops[d];
       this->Demand[d].resize(this->Line[d].size());
       for (std::size_t k = 0; k < this->Line[d].size(); ++k)
       {
@@ -264,7 +256,7 @@ void SurfaceTree::MakeLines(
   for (int d = 0; d < 2; ++d)
   {
     this->IsCrease[d].assign(this->Line[d].size(), 0);
-    for (double t : this->Crease[d])
+    for (double t : bound.Creases(d))
     {
       const auto at = std::lower_bound(this->Line[d].begin(), this->Line[d].end(), t);
       this->IsCrease[d][at - this->Line[d].begin()] = 1;
@@ -272,28 +264,44 @@ void SurfaceTree::MakeLines(
   }
 }
 
-// The error of typical finest cells over the tolerance: the bounds exceed the sampled deviation, and
-// a cell that just fails would be halved.
-double SurfaceTree::TypicalExcess(const SurfaceBound& bound, const TreeGoal& goal) const
+// The factor on the number of lines that makes the fewest cells: cells that miss the tolerance are
+// halved, so that it pays to satisfy all but a few of them at once. Typical cells tell.
+double SurfaceTree::BestMargin(
+  const SurfaceBound& bound, const TreeGoal& goal, bool bothDirections) const
 {
-  constexpr int Samples = 12;
+  constexpr int Samples = 16;
   CellError cell(bound, goal);
-  std::vector<double> excess;
+  double error[Samples];
   const std::size_t nu = this->Line[0].size() - 1;
   const std::size_t nv = this->Line[1].size() - 1;
   for (int k = 0; k < Samples; ++k)
   {
     const std::size_t i = std::size_t((k + 0.5) / Samples * nu);
     const std::size_t j = std::size_t((0.5 + (k * 5) % Samples) / Samples * nv);
-    TreeLeaf leaf;
-    leaf.Box = { this->Line[0][i], this->Line[0][i + 1], this->Line[1][j], this->Line[1][j + 1] };
-    BezierPatch patch;
-    bound.Extract(leaf.Box, patch);
-    cell.Examine(&patch, leaf);
-    excess.push_back(leaf.Error / goal.Tolerance);
+    error[k] = cell.Sampled(
+      { this->Line[0][i], this->Line[0][i + 1], this->Line[1][j], this->Line[1][j + 1] });
   }
-  std::nth_element(excess.begin(), excess.begin() + Samples * 2 / 3, excess.end());
-  return excess[Samples * 2 / 3];
+  std::sort(error, error + Samples);
+  double best = 1.0;
+  double least = 1e300;
+  for (int k = 0; k < Samples; ++k)
+  {
+    const double margin =
+      std::min(2.0, std::max(0.8, std::sqrt(BoundSlack * error[k] / goal.Tolerance)));
+    int failing = 0;
+    for (double e : error)
+    {
+      failing += BoundSlack * e > goal.Tolerance * margin * margin * (1.0 + 1e-9);
+    }
+    const double cells =
+      (bothDirections ? margin * margin : margin) * (1.0 + double(failing) / Samples);
+    if (cells < least)
+    {
+      least = cells;
+      best = margin;
+    }
+  }
+  return best;
 }
 
 double SurfaceTree::Parameter(int dir, LineCode code) const
@@ -395,18 +403,12 @@ struct SurfaceTree::Work
     leaf.V0 = r.V0;
     leaf.V1 = r.V1;
     leaf.Box = this->Tree.BoxOf(r);
-    BezierPatch patch;
-    const bool single = this->Bound.InOneSpan(leaf.Box);
-    if (single)
-    {
-      this->Bound.Extract(leaf.Box, patch);
-    }
-    this->Cell.Examine(single ? &patch : nullptr, leaf);
+    this->Cell.Examine(leaf);
     return leaf;
   }
 
   // Children of a range; empty: the range is a leaf, whose data `leaf` receives.
-  std::vector<Range> Divide(const Range& r, const BezierPatch* patch, TreeLeaf& leaf)
+  std::vector<Range> Divide(const Range& r, TreeLeaf& leaf)
   {
     const bool creaseU = this->CreaseInside(0, r.U0, r.U1);
     const bool creaseV = this->CreaseInside(1, r.V0, r.V1);
@@ -418,7 +420,7 @@ struct SurfaceTree::Work
       leaf.V0 = r.V0;
       leaf.V1 = r.V1;
       leaf.Box = this->Tree.BoxOf(r);
-      axis = this->Cell.Examine(patch, leaf);
+      axis = this->Cell.Examine(leaf);
       if (axis >= 0 && std::int64_t(this->Out.Leaves.size()) >= this->MaximumLeaves)
       {
         this->Out.Capped = true;
@@ -453,17 +455,11 @@ struct SurfaceTree::Work
     return {};
   }
 
-  void Build(int node, const Range& r, const BezierPatch* patch)
+  void Build(int node, const Range& r)
   {
-    BezierPatch own;
     const ParameterBox box = this->Tree.BoxOf(r);
-    if (!patch && this->Bound.InOneSpan(box))
-    {
-      this->Bound.Extract(box, own);
-      patch = &own;
-    }
     TreeLeaf leaf;
-    const std::vector<Range> children = this->Divide(r, patch, leaf);
+    const std::vector<Range> children = this->Divide(r, leaf);
     this->Out.Nodes[node].Box = box;
     if (children.empty())
     {
@@ -476,20 +472,9 @@ struct SurfaceTree::Work
     this->Out.Nodes[node].First = first;
     this->Out.Nodes[node].Count = int(children.size());
     this->Out.Nodes.resize(first + children.size());
-    if (patch && children.size() == 2)
-    {
-      const int dir = children[0].U1 != r.U1 ? 0 : 1;
-      const ParameterBox low = this->Tree.BoxOf(children[0]);
-      const double t = dir == 0 ? (low.U1 - box.U0) / box.A() : (low.V1 - box.V0) / box.B();
-      BezierPatch halves[2];
-      SplitBezierPatch(*patch, dir, t, halves[0], halves[1]);
-      this->Build(first, children[0], &halves[0]);
-      this->Build(first + 1, children[1], &halves[1]);
-      return;
-    }
     for (std::size_t c = 0; c < children.size(); ++c)
     {
-      this->Build(first + int(c), children[c], nullptr);
+      this->Build(first + int(c), children[c]);
     }
   }
 };
@@ -523,9 +508,7 @@ void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, c
       const ParameterBox box = this->BoxOf(part.Where);
       this->Nodes[part.Node].Box = box;
       TreeLeaf leaf;
-      const bool tiny = bound.InOneSpan(box);
-      const std::vector<Range> children =
-        tiny ? std::vector<Range>() : top.Divide(part.Where, nullptr, leaf);
+      const std::vector<Range> children = top.Divide(part.Where, leaf);
       if (children.empty())
       {
         next.push_back(part);
@@ -557,7 +540,7 @@ void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, c
     {
       trees[k].Nodes.resize(1);
       Work work(*this, bound, goal, limit, trees[k]);
-      work.Build(0, parts[k].Where, nullptr);
+      work.Build(0, parts[k].Where);
     }
   });
 

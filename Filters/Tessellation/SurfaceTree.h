@@ -9,7 +9,6 @@
 #pragma once
 
 #include "SurfaceBound.h"
-#include "SurfaceEvaluator.h"
 #include "Tessellator.h"
 
 namespace nurbs
@@ -24,12 +23,9 @@ struct TreeLeaf
 {
   LineCode U0 = 0, U1 = 0, V0 = 0, V1 = 0;
   ParameterBox Box;
-  CurvatureRange Range;
-  double Error = 0.0;   ///< Bound (or estimate) of the two triangles' distance from the surface.
-  double Height = 0.0;  ///< Bound (or estimate) of the surface's height over the two triangles.
-  double Sliding = 0.0; ///< Bound of its sliding along them.
-  int Axis = 0;         ///< Direction (0: u, 1: v) that deviates most.
-  int Diagonal = 0;     ///< 0: from (U0, V0) to (U1, V1); 1: from (U1, V0) to (U0, V1).
+  double Error = 0.0; ///< Bound (or estimate) of the two triangles' distance from the surface.
+  int Axis = 0;       ///< Direction (0: u, 1: v) that deviates most.
+  int Diagonal = 0;   ///< 0: from (U0, V0) to (U1, V1); 1: from (U1, V0) to (U0, V1).
 };
 
 /// What a tree must reach.
@@ -145,7 +141,7 @@ private:
   }
 
   void MakeLines(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal);
-  double TypicalExcess(const SurfaceBound& bound, const TreeGoal& goal) const;
+  double BestMargin(const SurfaceBound& bound, const TreeGoal& goal, bool bothDirections) const;
   ParameterBox BoxOf(const Range& range) const;
   /// The code where [low, high] of a direction is split; `low` if it cannot be.
   LineCode SplitCode(int dir, LineCode low, LineCode high, bool halves) const;

@@ -244,21 +244,18 @@ private:
   {
     const Face& face = this->Data.Faces[f];
     const double tolerance = this->ToleranceOf(f);
-    this->Bounds[f].reset(new SurfaceBound(face.Geometry));
+    this->Snaps[f] = this->SnapDistance(face.Geometry, tolerance);
+    const ParameterBox used = this->UsedDomain(f);
+    this->Bounds[f].reset(new SurfaceBound(face.Geometry, used, parallel));
     FaceContext& context = this->Contexts[f];
     context.Bound = this->Bounds[f].get();
     context.Tolerance = tolerance;
-    Vec3 normal;
-    double distance = 0.0;
-    const bool limits = this->Options.MaximumEdgeLength > 0.0;
-    if (!limits && context.Bound->IsPlanar(1e-3 * tolerance, normal, distance))
+    if (!(this->Options.MaximumEdgeLength > 0.0) && context.Bound->Flatness() <= 1e-3 * tolerance)
     {
-      context.Tree = nullptr;
       return;
     }
-    this->Snaps[f] = this->SnapDistance(face.Geometry, tolerance);
     this->Trees[f].reset(new SurfaceTree);
-    this->Trees[f]->Build(*context.Bound, this->UsedDomain(f), this->GoalOf(f), parallel);
+    this->Trees[f]->Build(*context.Bound, used, this->GoalOf(f), parallel);
     context.Tree = this->Trees[f].get();
   }
 
