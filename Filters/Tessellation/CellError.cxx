@@ -73,9 +73,23 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
     for (int i = 0; i <= k; ++i)
     {
       const int side = diagonal == 0 ? i - j : k - i - j;
-      if (alone || (half == 0 ? side >= 0 : side <= 0))
+      if (!alone && (half == 0 ? side < 0 : side > 0))
       {
-        samples.Add(facet, this->Sample[i + std::size_t(j) * (k + 1)]);
+        continue;
+      }
+      const Vec3& x = this->Sample[i + std::size_t(j) * (k + 1)];
+      samples.Add(facet, x);
+      for (int edge = 0; edge < 3; ++edge)
+      {
+        const int a = Facets[diagonal][half][edge];
+        const int b = Facets[diagonal][half][(edge + 1) % 3];
+        const bool on = (a & 1) == (b & 1) ? i == (a & 1) * k
+          : (a >> 1) == (b >> 1)           ? j == (a >> 1) * k
+                                           : side == 0 && !alone;
+        if (on)
+        {
+          samples.AddEdge(facet, edge, x);
+        }
       }
     }
   }
@@ -98,7 +112,7 @@ double CellError::Sampled(const ParameterBox& box)
       {
         const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
         const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
-        worst = std::max(worst, this->Samples(facet, diagonal, half, alone).Far);
+        worst = std::max(worst, this->Samples(facet, diagonal, half, alone).Largest());
       }
     }
     best = std::min(best, worst);
@@ -144,17 +158,17 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
       const bool dense = k == Densest || (k == 4 && !guaranteed);
       if (!guaranteed && (dense || !this->Bound.HasGridLineInside(box)))
       {
-        error = samples.Far;
+        error = samples.Largest();
         break;
       }
       if (guaranteed)
       {
         error = std::min(error, CombineError(samples, rest, k));
       }
-      if (samples.Far > tolerance || dense ||
+      if (samples.Largest() > tolerance || dense ||
         (guaranteed && CombineError(samples, rest, Densest) > tolerance))
       {
-        error = guaranteed ? error : samples.Far;
+        error = guaranteed ? error : samples.Largest();
         break;
       }
     }

@@ -13,6 +13,7 @@ namespace nurbs
 
 namespace
 {
+constexpr int VotePasses = 6;
 constexpr double CurveShare = 0.8; // Of the tolerance; the rest is for the surface beside the edge.
 
 Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
@@ -322,8 +323,9 @@ public:
       }
       this->Insert(thirds);
     }
-    for (int pass = 0; pass < 4 && this->Vote(); ++pass)
+    for (int pass = 0; this->Vote(pass < VotePasses); ++pass)
     {}
+    this->Out.Error = std::max(this->Out.Error, this->ChordError);
     this->MakePoints();
     return std::move(this->Out);
   }
@@ -551,10 +553,12 @@ private:
     return std::min(64, int(std::ceil(most - 1e-3)));
   }
 
-  // Every face looks at every chord in its own domain; returns true if it had to add parameters.
-  bool Vote()
+  // Every face looks at every chord in its own domain; returns true if it had to add parameters,
+  // which it may with `mayAdd` only.
+  bool Vote(bool mayAdd)
   {
     std::vector<double> add;
+    this->ChordError = 0.0;
     for (const EdgeUse& use : this->Uses)
     {
       const FaceContext& face = this->Faces[use.Face];
@@ -570,7 +574,7 @@ private:
         const Vec2 b = this->UV(use, ts[k + 1]);
         double error = 0.0;
         int n = straight ? 1 : this->ChordSegments(use, a, b, error);
-        this->Out.Error = std::max(this->Out.Error, n == 1 ? error : 0.0);
+        this->ChordError = std::max(this->ChordError, error);
         n = std::max(n, this->DepthSegments(face, a, b));
         for (int i = 1; i < n; ++i)
         {
@@ -578,6 +582,10 @@ private:
         }
         a = b;
       }
+    }
+    if (!mayAdd)
+    {
+      return false;
     }
     std::sort(add.begin(), add.end());
     const std::size_t before = this->Out.Parameters.size();
@@ -608,6 +616,7 @@ private:
   bool OwnCurve = false;
   std::vector<BezierCurve<3>> Pieces;
   EdgePolyline Out;
+  double ChordError = 0.0; ///< Of the chords in the faces' domains.
 };
 } // namespace
 

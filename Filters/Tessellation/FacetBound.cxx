@@ -83,6 +83,19 @@ void Facet::Measure(const Vec3& p, double& height, double& outside) const
   outside = std::sqrt(least);
 }
 
+double Facet::Across(int i, const Vec3& p) const
+{
+  return this->Plane ? this->Outward[i].dot(p - this->X[i]) / std::sqrt(this->Square[i]) : 0.0;
+}
+
+void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p)
+{
+  double height;
+  double outside;
+  facet.Measure(p, height, outside);
+  this->Edge = std::max(this->Edge, std::hypot(height, std::max(0.0, -facet.Across(edge, p))));
+}
+
 void SampleDistance::Add(const Facet& facet, const Vec3& p)
 {
   double height;
@@ -111,9 +124,12 @@ Remainder::Remainder(const SecondDerivatives& second, double a, double b, const 
 double CombineError(const SampleDistance& samples, const Remainder& rest, int density)
 {
   const double share = 1.0 / (density * density);
-  return std::min(
-    std::hypot(samples.Height + share * rest.Across, samples.Outside + share * rest.Along),
-    samples.Far + share * rest.Any);
+  const double across = share * rest.Across;
+  const double along = share * rest.Along;
+  const double both = std::hypot(across, along);
+  const double error =
+    std::min(std::hypot(samples.Height + across, samples.Outside + along), samples.Far + both);
+  return density > 1 ? std::max(error, samples.Edge + both) : error;
 }
 
 FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
@@ -126,22 +142,74 @@ double FacetBound::Error(
   const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, int pole, double limit)
 {
   const Facet facet(x[0], x[1], x[2]);
-  if (pole < 0)
+  if (pole < 0 && !this->Bound.CrossesCrease(BoxOf(uv)))
   {
     return this->Piece(facet, uv, true, gap, limit);
   }
-  // The region between the base and the pole's side, which runs along u or v.
-  const Vec2& a = uv[(pole + 1) % 3];
-  const Vec2& b = uv[(pole + 2) % 3];
-  const Vec2 base = (b - a).cwiseAbs();
-  const int d = base[0] >= base[1] ? 0 : 1;
-  Vec2 pa = uv[pole];
-  Vec2 pb = uv[pole];
-  pa[d] = a[d];
-  pb[d] = b[d];
-  const double error = this->Piece(facet, { pa, a, b }, false, gap, limit);
-  return error > limit ? error
-                       : std::max(error, this->Piece(facet, { pa, b, pb }, false, gap, limit));
+  Vec2 from[3] = { uv[0], uv[1], uv[2] }; // Between which parameters the curve of each edge runs.
+  Vec2 to[3] = { uv[1], uv[2], uv[0] };
+  double error = 0.0;
+  if (pole < 0)
+  {
+    error = this->Piece(facet, uv, false, gap, limit);
+  }
+  else
+  {
+    // The region between the base and the pole's side, which runs along u or v.
+    const Vec2& a = uv[(pole + 1) % 3];
+    const Vec2& b = uv[(pole + 2) % 3];
+    const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
+    Vec2& pa = from[pole];
+    Vec2& pb = to[(pole + 2) % 3];
+    pa[d] = a[d];
+    pb[d] = b[d];
+    error = this->Piece(facet, { pa, a, b }, false, gap, limit);
+    if (error <= limit)
+    {
+      error = std::max(error, this->Piece(facet, { pa, b, pb }, false, gap, limit));
+    }
+  }
+  for (int i = 0; i < 3 && error <= limit; ++i)
+  {
+    error = std::max(error, this->EdgeError(facet, i, from[i], to[i]));
+  }
+  return error;
+}
+
+// The edges' part of CombineError, for the curve between two parameter points.
+double FacetBound::EdgeError(const Facet& facet, int edge, const Vec2& a, const Vec2& b)
+{
+  constexpr int Samples = 8;
+  std::vector<double> ts;
+  for (int i = 0; i <= Samples; ++i)
+  {
+    ts.push_back(double(i) / Samples);
+  }
+  for (int d = 0; d < 2; ++d)
+  {
+    for (double crease : this->Bound.Creases(d))
+    {
+      const double t = (crease - a[d]) / (b[d] - a[d]);
+      if (t > 0.0 && t < 1.0)
+      {
+        ts.push_back(t);
+      }
+    }
+  }
+  SampleDistance samples;
+  for (double t : ts)
+  {
+    const Vec2 p = a + t * (b - a);
+    samples.AddEdge(facet, edge, this->Evaluator.Point(p[0], p[1]));
+  }
+  if (!this->Guaranteed)
+  {
+    return samples.Edge;
+  }
+  const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
+    std::max(a[1], b[1]) };
+  const Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
+  return samples.Edge + std::hypot(rest.Across, rest.Along) / (Samples * Samples);
 }
 
 double FacetBound::Piece(
@@ -179,7 +247,7 @@ double FacetBound::Piece(
   {
     return error;
   }
-  for (int k = 2; samples.Far <= limit; k *= 2)
+  for (int k = 2; samples.Largest() <= limit; k *= 2)
   {
     for (int j = 0; j <= k; ++j)
     {
@@ -191,14 +259,23 @@ double FacetBound::Piece(
         }
         const Vec2 p =
           uv[0] + (uv[1] - uv[0]) * (double(i) / k) + (uv[2] - uv[0]) * (double(j) / k);
-        samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
+        const Vec3 x = this->Evaluator.Point(p[0], p[1]);
+        samples.Add(facet, x);
+        const bool on[3] = { j == 0, i + j == k, i == 0 };
+        for (int edge = 0; edge < 3 && inscribed; ++edge)
+        {
+          if (on[edge])
+          {
+            samples.AddEdge(facet, edge, x);
+          }
+        }
       }
     }
     if (!this->Guaranteed)
     {
       if (k == 4 || !this->Bound.HasGridLineInside(box))
       {
-        return samples.Far;
+        return samples.Largest();
       }
       continue;
     }
@@ -208,7 +285,7 @@ double FacetBound::Piece(
       return error;
     }
   }
-  return samples.Far;
+  return samples.Largest();
 }
 
 // The two sides of a crease, each for itself.

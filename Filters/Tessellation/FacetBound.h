@@ -2,11 +2,14 @@
 /// @file FacetBound.h
 /// @brief Bound of the distance between a piece of a surface and the facet that replaces it.
 ///
-/// A facet is convex, so the distance from it is a convex function. Between samples S(p_i) at the
-/// corners of a small parameter triangle the surface is a mean of them plus the remainder of
-/// SurfaceBound.h; so no point is farther from the facet than the farthest sample plus the
-/// remainder, which falls with the square of the samples' spacing. Sliding of parameters along the
-/// facet costs nothing. Derivation: Documentation/Papers/balazs-2004-bound.md.
+/// From the surface to the facet: a facet is convex, so the distance from it is a convex function.
+/// Between samples S(p_i) at the corners of a small parameter triangle the surface is a mean of them
+/// plus the remainder of SurfaceBound.h; so no point is farther from the facet than the farthest
+/// sample plus the remainder, which falls with the square of the samples' spacing. Sliding of
+/// parameters along the facet costs nothing. From the facet to the surface: feet of surface points
+/// cover all of the facet but what lies between its edges and curves that bow inwards, and that is
+/// as near to the curves as their own samples are to the edges.
+/// Derivation: Documentation/Papers/balazs-2004-bound.md.
 #pragma once
 
 #include "SurfaceBound.h"
@@ -27,12 +30,15 @@ public:
   /// Height of p over the plane, and the distance of its foot from the triangle. Without a plane:
   /// 0 and the distance.
   void Measure(const Vec3& p, double& height, double& outside) const;
+  /// Distance of p's foot from the line of edge i (from corner i to i + 1), positive outwards; 0
+  /// without a plane.
+  double Across(int i, const Vec3& p) const;
 
 private:
   Vec3 X[3];
   Vec3 Edge[3];
   double Square[3]; ///< Squared length of Edge.
-  Vec3 Outward[3];  ///< In the plane, of edge i from corner i to i + 1; not of unit length.
+  Vec3 Outward[3];  ///< In the plane, of edge i; as long as the edge.
   Vec3 N = Vec3::Zero();
   Vec3 T[2] = { Vec3::Zero(), Vec3::Zero() };
   bool Plane = false;
@@ -43,8 +49,11 @@ struct SampleDistance
 {
   double Height = 0.0;
   double Outside = 0.0;
-  double Far = 0.0; ///< Both together, of one sample.
+  double Far = 0.0;  ///< Both together, of one sample.
+  double Edge = 0.0; ///< Of samples on the edges' curves: height, and how far inside the edge.
   void Add(const Facet& facet, const Vec3& p);
+  void AddEdge(const Facet& facet, int edge, const Vec3& p);
+  double Largest() const { return std::max(this->Far, this->Edge); }
 };
 
 /// Remainders of linear interpolation over a triangle in an a x b box: across a facet, along it, and
@@ -78,6 +87,7 @@ private:
   double Piece(const Facet& facet, const Vec2 (&uv)[3], bool inscribed, double gap, double limit);
   double Cut(
     const Facet& facet, const Vec2 (&uv)[3], double gap, double limit, int dir, double crease);
+  double EdgeError(const Facet& facet, int edge, const Vec2& a, const Vec2& b);
 
   const SurfaceBound& Bound;
   SurfaceEvaluator Evaluator;
