@@ -14,7 +14,7 @@ namespace nurbs
 namespace
 {
 constexpr int VotePasses = 6;
-constexpr double CurveShare = 0.8; // Of the tolerance; the rest is for the surface beside the edge.
+constexpr double CurveShare = 0.95; // Of the tolerance, for an edge without gaps.
 
 Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
 {
@@ -302,8 +302,7 @@ public:
   {
     this->ChooseCurve();
     std::vector<double>& ts = this->Out.Parameters;
-    ts = ApproximateCurve(
-      this->Pieces, CurveShare * this->Tolerance, this->Options.Curves, this->Out.Error);
+    ts = ApproximateCurve(this->Pieces, this->Goal(), this->Options.Curves, this->Out.Error);
     std::vector<double> inner;
     inner.swap(ts);
     ts = { this->Domain.Min, this->Domain.Max };
@@ -331,6 +330,12 @@ public:
   }
 
 private:
+  // What the polyline may be off its curve: what the faces' own gaps from it leave.
+  double Goal() const
+  {
+    return std::max(0.3 * this->Tolerance, CurveShare * this->Tolerance - this->Out.Gap);
+  }
+
   Vec2 UV(const EdgeUse& use, double t) const
   {
     const TrimCurve& curve = this->Data.TrimCurves[use.Curve];
@@ -485,7 +490,7 @@ private:
   int ChordSegments(const EdgeUse& use, const Vec2& a, const Vec2& b, double& error) const
   {
     const SurfaceBound& bound = *this->Faces[use.Face].Bound;
-    const double goal = CurveShare * this->Tolerance;
+    const double goal = this->Goal();
     const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
       std::max(a[1], b[1]) };
     const double rest = bound.Over(box).Bow(box.A(), box.B());
@@ -547,7 +552,7 @@ private:
       const bool mostlyU = du * cell.B() > dv * cell.A();
       const double depth =
         0.7 * 0.125 * (mostlyU ? cell.B() * cell.B() * height[2] : cell.A() * cell.A() * height[0]);
-      const double room = std::max(0.3 * this->Tolerance, 0.9 * this->Tolerance - depth);
+      const double room = std::max(0.3 * this->Tolerance, CurveShare * this->Tolerance - depth);
       most = std::max(most, std::sqrt(along / room));
     });
     return std::min(64, int(std::ceil(most - 1e-3)));

@@ -134,34 +134,67 @@ struct Derivative
   }
 };
 
-// Intervals of the second derivatives of one Bezier patch over an a x b box; `c` is changed.
-void BoundPatch(Vec4* c, int p, int q, double a, double b, bool rational, Interval3 (&out)[3])
+// The patch less the bilinear surface L through its corners: H - w L and w in Bezier form, one degree
+// higher in both directions. S - L = (H - w L) / w has the second derivatives of S but for L_uv, and
+// is so small that the quotient rule's intervals are narrow. Coefficient (i, j) takes the same shares
+// of its neighbours for the elevated w and for the product.
+void SubtractBilinear(
+  const std::vector<Vec4>& c, int p, int q, const Vec3 (&corner)[4], std::vector<Vec4>& out)
 {
+  out.assign(std::size_t(p + 2) * (q + 2), Vec4::Zero());
+  for (int j = 0; j <= q; ++j)
+  {
+    for (int i = 0; i <= p; ++i)
+    {
+      const Vec4& h = c[i + std::size_t(j) * (p + 1)];
+      for (int k = 0; k < 4; ++k)
+      {
+        const int a = k & 1;
+        const int b = k >> 1;
+        const double share =
+          (a ? i + 1.0 : p + 1.0 - i) / (p + 1) * ((b ? j + 1.0 : q + 1.0 - j) / (q + 1));
+        Vec4& target = out[i + a + std::size_t(j + b) * (p + 2)];
+        target.head<3>() += share * (h.head<3>() - h[3] * corner[k]);
+        target[3] += share * h[3];
+      }
+    }
+  }
+}
+
+// Intervals of the second derivatives of one Bezier patch over an a x b box; `scratch` is changed.
+void BoundPatch(const std::vector<Vec4>& patch, int p, int q, double a, double b, bool rational,
+  std::vector<Vec4>& scratch, Interval3 (&out)[3])
+{
+  const Vec4* c = patch.data();
+  Vec3 corner[4];
+  if (rational)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      const Vec4& h = c[(k & 1 ? p : 0) + (k >> 1 ? q : 0) * (p + 1)];
+      corner[k] = h.head<3>() / h[3];
+    }
+    SubtractBilinear(patch, p, q, corner, scratch);
+    c = scratch.data();
+    ++p;
+    ++q;
+  }
   const int s = p + 1;
-  const int count = s * (q + 1);
   const double f[5] = { p / a, q / b, p * (p - 1) / (a * a), p * q / (a * b),
     q * (q - 1) / (b * b) };
   Interval3 x;
   Interval1 reciprocal; // Of the weight.
-  if (rational)
-  {
-    // Around the patch's own middle the products below are small.
-    const Vec3 middle = 0.25 *
-      (c[0].head<3>() / c[0][3] + c[p].head<3>() / c[p][3] +
-        c[count - s].head<3>() / c[count - s][3] + c[count - 1].head<3>() / c[count - 1][3]);
-    for (int k = 0; k < count; ++k)
-    {
-      c[k].head<3>() -= c[k][3] * middle;
-      x.Extend(c[k].head<3>() / c[k][3]);
-      reciprocal.Extend(1.0 / c[k][3]);
-    }
-  }
-  Derivative d[5]; // u, v, uu, uv, vv
+  Derivative d[5];      // u, v, uu, uv, vv
   for (int j = 0; j <= q; ++j)
   {
     for (int i = 0; i <= p; ++i)
     {
       const Vec4* h = c + i + j * s;
+      if (rational)
+      {
+        x.Extend(h[0].head<3>() / h[0][3]);
+        reciprocal.Extend(1.0 / h[0][3]);
+      }
       if (i < p && rational)
       {
         d[0].Extend((h[1] - h[0]) * f[0]);
@@ -207,6 +240,9 @@ void BoundPatch(Vec4* c, int p, int q, double a, double b, bool rational, Interv
   out[0] = reciprocal * (d[2].X - twice(d[0].W) * su - d[2].W * x);
   out[1] = reciprocal * (d[3].X - d[0].W * sv - d[1].W * su - d[3].W * x);
   out[2] = reciprocal * (d[4].X - twice(d[1].W) * sv - d[4].W * x);
+  const Vec3 twist = (corner[3] - corner[2] - corner[1] + corner[0]) / (a * b);
+  out[1].Low += twist;
+  out[1].High += twist;
 }
 
 float Down(double x)
@@ -405,6 +441,7 @@ void SurfaceBound::MakeCells(const ParallelFor& parallel)
     std::vector<Vec4> rows(std::size_t(columns) * (q + 1));
     std::vector<double> mv(std::size_t(q + 1) * (q + 1));
     std::vector<Vec4> patch(std::size_t(p + 1) * (q + 1));
+    std::vector<Vec4> scratch;
     for (std::int64_t j = begin; j < end; ++j)
     {
       const double v0 = this->Breaks[1][j];
@@ -445,8 +482,8 @@ void SurfaceBound::MakeCells(const ParallelFor& parallel)
           }
         }
         Interval3 bounds[3];
-        BoundPatch(patch.data(), p, q, this->Breaks[0][i + 1] - this->Breaks[0][i], v1 - v0,
-          rational, bounds);
+        BoundPatch(patch, p, q, this->Breaks[0][i + 1] - this->Breaks[0][i], v1 - v0, rational,
+          scratch, bounds);
         Cell& cell = level.Cells[i + std::size_t(j) * nu];
         for (int k = 0; k < 9; ++k)
         {

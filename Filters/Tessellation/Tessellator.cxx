@@ -210,7 +210,7 @@ private:
   TreeGoal GoalOf(std::int64_t f) const
   {
     TreeGoal goal;
-    goal.Tolerance = 0.98 * this->ToleranceOf(f);
+    goal.Tolerance = this->ToleranceOf(f);
     goal.Method = this->Options.Method;
     goal.Error = this->Options.Error;
     goal.MaximumEdgeLength = this->Options.MaximumEdgeLength;
