@@ -53,12 +53,14 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
   }
   this->Density = k;
   this->Sample.resize(std::size_t(k + 1) * (k + 1));
+  this->Normal.resize(this->Sample.size());
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i <= k; ++i)
     {
-      this->Sample[i + std::size_t(j) * (k + 1)] =
-        this->Evaluator.Point(box.U0 + box.A() * i / k, box.V0 + box.B() * j / k);
+      const std::size_t at = i + std::size_t(j) * (k + 1);
+      this->Evaluator.PointAndNormal(
+        box.U0 + box.A() * i / k, box.V0 + box.B() * j / k, this->Sample[at], this->Normal[at]);
     }
   }
 }
@@ -88,7 +90,7 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
                                            : side == 0 && !alone;
         if (on)
         {
-          samples.AddEdge(facet, edge, x);
+          samples.AddEdge(facet, edge, x, this->Normal[i + std::size_t(j) * (k + 1)]);
         }
       }
     }

@@ -38,7 +38,8 @@ private:
   SurfaceEvaluator Evaluator;
   SecondDerivatives Second;
   Vec3 At[4];               ///< Corners (0,0), (1,0), (0,1), (1,1).
-  std::vector<Vec3> Sample; ///< (Density + 1)^2 points, u fastest.
+  std::vector<Vec3> Sample; ///< (Density + 1)^2 points, u fastest,
+  std::vector<Vec3> Normal; ///< and normals.
   int Density = 0;
 };
 

@@ -65,8 +65,10 @@ double FaceErrors::TriangleError(FacetBound& bound, const int* t) const
   }
   const Vec3* x = this->Mesh.Points.data();
   const Vec2* uv = this->Mesh.UV.data();
+  const bool boundary[3] = { this->IsSegment(t[0], t[1]), this->IsSegment(t[1], t[2]),
+    this->IsSegment(t[2], t[0]) };
   return bound.Error({ x[t[0]], x[t[1]], x[t[2]] }, { uv[t[0]], uv[t[1]], uv[t[2]] },
-    this->GapOf(t), this->PoleOf(t), this->Limit(t));
+    this->GapOf(t), boundary, this->PoleOf(t), this->Limit(t));
 }
 
 } // namespace nurbs

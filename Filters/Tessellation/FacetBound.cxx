@@ -9,6 +9,10 @@ namespace nurbs
 
 namespace
 {
+constexpr double SteepestCosine = 0.7; // Of the angle between facet and surface,
+constexpr double TooSteep = 1e9;
+constexpr double DihedralSlack = 2.4; // The neighbour's facet may be as steep on its side,
+constexpr double SlopeSlack = 1.2;    // for the slope between samples and a little beyond the edge.
 constexpr int Densest = 8; // Samples along a side: more of them are dearer than smaller triangles.
 
 double SegmentDistance(const Vec3& p, const Vec3& x, const Vec3& edge, double square)
@@ -88,14 +92,6 @@ double Facet::Across(int i, const Vec3& p) const
   return this->Plane ? this->Outward[i].dot(p - this->X[i]) / std::sqrt(this->Square[i]) : 0.0;
 }
 
-void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p)
-{
-  double height;
-  double outside;
-  facet.Measure(p, height, outside);
-  this->Edge = std::max(this->Edge, std::hypot(height, std::max(0.0, -facet.Across(edge, p))));
-}
-
 void SampleDistance::Add(const Facet& facet, const Vec3& p)
 {
   double height;
@@ -104,6 +100,30 @@ void SampleDistance::Add(const Facet& facet, const Vec3& p)
   this->Height = std::max(this->Height, height);
   this->Outside = std::max(this->Outside, outside);
   this->Far = std::max(this->Far, std::hypot(height, outside));
+  for (int i = 0; i < 3 && outside > 0.0; ++i)
+  {
+    this->Beyond = this->Beyond || (facet.IsBoundary(i) && facet.Across(i, p) > 0.0);
+  }
+}
+
+void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal)
+{
+  double height;
+  double outside;
+  facet.Measure(p, height, outside);
+  const double inside = std::max(0.0, -facet.Across(edge, p));
+  this->Inside = std::max(this->Inside, inside);
+  this->Edge = std::max(this->Edge, std::hypot(height, inside));
+  const double c = std::abs(normal.dot(facet.Normal()));
+  this->Slope = std::max(
+    this->Slope, c > SteepestCosine ? std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0)) : TooSteep);
+}
+
+double SampleDistance::Largest() const
+{
+  const double aside = this->Beyond ? 1e300 : DihedralSlack * this->Slope * this->Outside;
+  return std::max(std::min(this->Far, this->Height + aside),
+    std::min(this->Edge, this->Height + SlopeSlack * this->Slope * this->Inside));
 }
 
 Remainder::Remainder(const SecondDerivatives& second, double a, double b, const Facet& facet)
@@ -127,9 +147,17 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
   const double across = share * rest.Across;
   const double along = share * rest.Along;
   const double both = std::hypot(across, along);
-  const double error =
+  const double far =
     std::min(std::hypot(samples.Height + across, samples.Outside + along), samples.Far + both);
-  return density > 1 ? std::max(error, samples.Edge + both) : error;
+  if (density == 1)
+  {
+    return far;
+  }
+  const double height = samples.Height + across;
+  const double beyond =
+    samples.Beyond ? 1e300 : DihedralSlack * samples.Slope * (samples.Outside + along);
+  const double within = SlopeSlack * samples.Slope * (samples.Inside + along);
+  return std::max(std::min(far, height + beyond), std::min(samples.Edge + both, height + within));
 }
 
 FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
@@ -138,10 +166,17 @@ FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
   , Guaranteed(mode == ErrorMode::Guaranteed)
 {}
 
-double FacetBound::Error(
-  const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, int pole, double limit)
+double FacetBound::Error(const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap,
+  const bool (&boundary)[3], int pole, double limit)
 {
-  const Facet facet(x[0], x[1], x[2]);
+  Facet facet(x[0], x[1], x[2]);
+  for (int i = 0; i < 3; ++i)
+  {
+    if (boundary[i])
+    {
+      facet.SetBoundary(i);
+    }
+  }
   if (pole < 0 && !this->Bound.CrossesCrease(BoxOf(uv)))
   {
     return this->Piece(facet, uv, true, gap, limit);
@@ -171,7 +206,7 @@ double FacetBound::Error(
   }
   for (int i = 0; i < 3 && error <= limit; ++i)
   {
-    error = std::max(error, this->EdgeError(facet, i, from[i], to[i]));
+    error = boundary[i] ? error : std::max(error, this->EdgeError(facet, i, from[i], to[i]));
   }
   return error;
 }
@@ -200,16 +235,19 @@ double FacetBound::EdgeError(const Facet& facet, int edge, const Vec2& a, const 
   for (double t : ts)
   {
     const Vec2 p = a + t * (b - a);
-    samples.AddEdge(facet, edge, this->Evaluator.Point(p[0], p[1]));
+    Vec3 x;
+    Vec3 normal;
+    this->Evaluator.PointAndNormal(p[0], p[1], x, normal);
+    samples.AddEdge(facet, edge, x, normal);
   }
   if (!this->Guaranteed)
   {
-    return samples.Edge;
+    return samples.Largest();
   }
   const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
     std::max(a[1], b[1]) };
   const Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
-  return samples.Edge + std::hypot(rest.Across, rest.Along) / (Samples * Samples);
+  return CombineError(samples, rest, Samples);
 }
 
 double FacetBound::Piece(
@@ -232,7 +270,8 @@ double FacetBound::Piece(
   SampleDistance samples;
   if (inscribed)
   {
-    samples = { gap, gap, gap };
+    samples.Height = samples.Outside = samples.Far = gap;
+    samples.Beyond = gap > 0.0;
   }
   else
   {
@@ -259,16 +298,17 @@ double FacetBound::Piece(
         }
         const Vec2 p =
           uv[0] + (uv[1] - uv[0]) * (double(i) / k) + (uv[2] - uv[0]) * (double(j) / k);
-        const Vec3 x = this->Evaluator.Point(p[0], p[1]);
-        samples.Add(facet, x);
-        const bool on[3] = { j == 0, i + j == k, i == 0 };
-        for (int edge = 0; edge < 3 && inscribed; ++edge)
+        const int edge = j == 0 ? 0 : i + j == k ? 1 : i == 0 ? 2 : -1;
+        if (!inscribed || edge < 0 || facet.IsBoundary(edge))
         {
-          if (on[edge])
-          {
-            samples.AddEdge(facet, edge, x);
-          }
+          samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
+          continue;
         }
+        Vec3 x;
+        Vec3 normal;
+        this->Evaluator.PointAndNormal(p[0], p[1], x, normal);
+        samples.Add(facet, x);
+        samples.AddEdge(facet, edge, x, normal);
       }
     }
     if (!this->Guaranteed)

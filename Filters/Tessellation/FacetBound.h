@@ -7,8 +7,7 @@
 /// plus the remainder of SurfaceBound.h; so no point is farther from the facet than the farthest
 /// sample plus the remainder, which falls with the square of the samples' spacing. Sliding of
 /// parameters along the facet costs nothing. From the facet to the surface: feet of surface points
-/// cover all of the facet but what lies between its edges and curves that bow inwards, and that is
-/// as near to the curves as their own samples are to the edges.
+/// cover all of the facet but what lies between its edges and curves that bow inwards (SampleDistance).
 /// Derivation: Documentation/Papers/balazs-2004-bound.md.
 #pragma once
 
@@ -23,6 +22,9 @@ class Facet
 {
 public:
   Facet(const Vec3& x0, const Vec3& x1, const Vec3& x2);
+  /// Says that edge i (from corner i to i + 1) lies on the face's boundary.
+  void SetBoundary(int i) { this->Boundary[i] = true; }
+  bool IsBoundary(int i) const { return this->Boundary[i]; }
   /// False if it has no plane to speak of.
   bool HasPlane() const { return this->Plane; }
   const Vec3& Normal() const { return this->N; }
@@ -30,7 +32,7 @@ public:
   /// Height of p over the plane, and the distance of its foot from the triangle. Without a plane:
   /// 0 and the distance.
   void Measure(const Vec3& p, double& height, double& outside) const;
-  /// Distance of p's foot from the line of edge i (from corner i to i + 1), positive outwards; 0
+  /// Distance of p's foot from the line of edge i, positive outwards; 0
   /// without a plane.
   double Across(int i, const Vec3& p) const;
 
@@ -42,18 +44,27 @@ private:
   Vec3 N = Vec3::Zero();
   Vec3 T[2] = { Vec3::Zero(), Vec3::Zero() };
   bool Plane = false;
+  bool Boundary[3] = { false, false, false };
 };
 
 /// Largest distances of samples from a facet.
+///
+/// A sample whose foot is outside the facet, beyond an edge inside the face, has the neighbour's facet
+/// beneath it, which goes on with a slope against this one. In the same way what lies between an edge
+/// and its curve that bows inwards has the surface beyond the curve above it.
 struct SampleDistance
 {
   double Height = 0.0;
   double Outside = 0.0;
   double Far = 0.0;  ///< Both together, of one sample.
-  double Edge = 0.0; ///< Of samples on the edges' curves: height, and how far inside the edge.
+  double Edge = 0.0; ///< Height and distance inside the edge together, of one sample on its curve.
+  double Inside = 0.0; ///< That distance alone.
+  double Slope = 0.0;  ///< Greatest slope of the surface against the facet on interior edges.
+  bool Beyond = false; ///< A foot is beyond an edge of the face's boundary.
   void Add(const Facet& facet, const Vec3& p);
-  void AddEdge(const Facet& facet, int edge, const Vec3& p);
-  double Largest() const { return std::max(this->Far, this->Edge); }
+  void AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal);
+  /// The error that the samples alone tell.
+  double Largest() const;
 };
 
 /// Remainders of linear interpolation over a triangle in an a x b box: across a facet, along it, and
@@ -79,9 +90,12 @@ public:
   /// over the parameter triangle uv. The work ends as soon as the result is known to be at most
   /// `limit`, or over it.
   /// @param gap largest distance of a corner from the surface at its parameters.
+  /// @param boundary edges (i: from corner i to i + 1) on the face's boundary: their curves' distance
+  /// is certified with the boundary.
   /// @param pole the corner that is a pole whose other parameters have no triangles of their own, so
   /// that this one stands for the whole region between its base and the pole's side; -1: none.
-  double Error(const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, int pole, double limit);
+  double Error(const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, const bool (&boundary)[3],
+    int pole, double limit);
 
 private:
   double Piece(const Facet& facet, const Vec2 (&uv)[3], bool inscribed, double gap, double limit);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nurbs
 {
@@ -13,253 +14,47 @@ namespace
 {
 constexpr int FractionBits = 20;
 constexpr double EvenShare = 0.75;  // Mean demand over greatest demand from which on lines fit all.
+constexpr double FailureCost = 3.0; // Cells that a failing one becomes or adds T-vertices to.
 constexpr double BoundSlack = 1.02; // By how much bounds exceed the sampled error, typically.
-constexpr std::size_t FewSpans = 16; // Fewer are sampled too thinly to tell.
 constexpr LineCode One = LineCode(1) << FractionBits;
 
-// Segments that a parameter interval wants: the square root of deviation over tolerance for one
-// chord, sampled inside the knot spans of both directions.
-struct DemandSamples
-{
-  std::vector<double> At;     // Sample boundaries, ascending: cell k is [At[k], At[k+1]].
-  std::vector<double> Wanted; // Segments wanted in cell k, where it wants most.
-  std::vector<double> Mean;   // On average across the other direction.
-};
-
-int SamplesOfSpan(int degree, std::size_t spans)
-{
-  const int wish = degree == 1 ? 1 : (degree <= 3 ? 3 : degree);
-  return spans > 24 ? std::min(wish, 2) : wish;
-}
-
-std::vector<double> SpanBreaks(KnotView knots, int degree, double low, double high)
-{
-  std::vector<double> breaks{ low };
-  // Spans of no width to speak of at the ends are noise of CAD kernels; they would make slivers.
-  const double eps = NegligibleSpan * (high - low);
-  for (const Knot& knot : DistinctKnots(knots, degree))
-  {
-    if (knot.Value > low + eps && knot.Value < high - eps)
-    {
-      breaks.push_back(knot.Value);
-    }
-  }
-  breaks.push_back(high);
-  return breaks;
-}
-
-DemandSamples MakeCells(const std::vector<double>& breaks, int degree)
-{
-  DemandSamples s;
-  const int n = SamplesOfSpan(degree, breaks.size() - 1);
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
-  {
-    for (int i = 0; i < n; ++i)
-    {
-      s.At.push_back(breaks[k] + (breaks[k + 1] - breaks[k]) * i / n);
-    }
-  }
-  s.At.push_back(breaks.back());
-  s.Wanted.assign(s.At.size() - 1, 0.0);
-  s.Mean = s.Wanted;
-  return s;
-}
-
-// Sample positions in a direction for the *other* direction's demand: cell middles, and both ends
-// where the surface is linear there (a cone is widest at one end).
-std::vector<double> Positions(const DemandSamples& s, int degree)
-{
-  std::vector<double> at;
-  if (degree == 1 && s.At.size() == 2)
-  {
-    const double a = s.At.front();
-    const double b = s.At.back();
-    return { a + 0.02 * (b - a), b - 0.02 * (b - a) };
-  }
-  for (std::size_t k = 0; k + 1 < s.At.size(); ++k)
-  {
-    at.push_back(0.5 * (s.At[k] + s.At[k + 1]));
-  }
-  return at;
-}
-
-void SampleDemand(const SurfaceBound& bound, double tolerance, DemandSamples& u, DemandSamples& v,
-  const ParallelFor& parallel)
-{
-  const SurfaceView& surface = bound.View();
-  const std::vector<double> us = Positions(u, surface.Degree[0]);
-  const std::vector<double> vs = Positions(v, surface.Degree[1]);
-  const auto cell = [](const DemandSamples& s, std::size_t sample, std::size_t samples) {
-    return samples == s.Wanted.size() ? sample : std::size_t(0);
-  };
-  std::vector<double> wantU(us.size() * vs.size());
-  std::vector<double> wantV(us.size() * vs.size());
-  parallel(0, std::int64_t(vs.size()), [&](std::int64_t begin, std::int64_t end) {
-    SurfaceEvaluator evaluator(bound.Evaluator());
-    for (std::int64_t j = begin; j < end; ++j)
-    {
-      for (std::size_t i = 0; i < us.size(); ++i)
-      {
-        const SurfaceDerivatives d = evaluator.Derivatives(us[i], vs[j], 2);
-        Vec3 n = d.Su.cross(d.Sv);
-        const double length = n.norm();
-        if (length > 1e-12 * d.Su.norm() * d.Sv.norm() && length > 0.0)
-        {
-          n /= length;
-          wantU[i + j * us.size()] = std::sqrt(std::abs(n.dot(d.Suu)) / (8.0 * tolerance));
-          wantV[i + j * us.size()] = std::sqrt(std::abs(n.dot(d.Svv)) / (8.0 * tolerance));
-        }
-      }
-    }
-  });
-  for (std::size_t j = 0; j < vs.size(); ++j)
-  {
-    for (std::size_t i = 0; i < us.size(); ++i)
-    {
-      double& wu = u.Wanted[cell(u, i, us.size())];
-      double& wv = v.Wanted[cell(v, j, vs.size())];
-      wu = std::max(wu, wantU[i + j * us.size()]);
-      wv = std::max(wv, wantV[i + j * us.size()]);
-      u.Mean[cell(u, i, us.size())] += wantU[i + j * us.size()] / double(vs.size());
-      v.Mean[cell(v, j, vs.size())] += wantV[i + j * us.size()] / double(us.size());
-    }
-  }
-}
-
-double Total(const DemandSamples& s)
-{
-  double total = 0.0;
-  for (std::size_t k = 0; k < s.Wanted.size(); ++k)
-  {
-    total += s.Wanted[k] * (s.At[k + 1] - s.At[k]);
-  }
-  return total;
-}
-
-// True if the demand is much the same across the surface, so that lines all over it suit it; where
-// it is not, halving spans where needed makes fewer cells.
-bool IsEven(const DemandSamples& s)
-{
-  double most = 0.0;
-  double mean = 0.0;
-  for (std::size_t k = 0; k < s.Wanted.size(); ++k)
-  {
-    most += s.Wanted[k] * (s.At[k + 1] - s.At[k]);
-    mean += s.Mean[k] * (s.At[k + 1] - s.At[k]);
-  }
-  return mean >= EvenShare * most;
-}
-
-// The deviations of both directions add up in a cell: they share the tolerance, half each (which
-// minimises the number of cells) unless one direction needs less with a single segment.
-void ShareTolerance(DemandSamples& u, DemandSamples& v)
-{
-  const double u2 = std::min(0.5, std::pow(Total(u), 2));
-  const double v2 = std::min(0.5, std::pow(Total(v), 2));
-  const double shareU = v2 < 0.5 ? 1.0 - v2 : (u2 < 0.5 ? u2 : 0.5);
-  for (double& w : u.Wanted)
-  {
-    w /= std::sqrt(std::max(1e-12, shareU));
-  }
-  for (double& w : v.Wanted)
-  {
-    w /= std::sqrt(std::max(1e-12, 1.0 - shareU));
-  }
-}
-
-// Lines of one direction: every stop, and between two of them the quantiles of the demand.
-void PlaceLines(const std::vector<double>& stops, const DemandSamples& s, double margin, bool even,
-  std::vector<double>& lines, std::vector<double>& demand)
-{
-  lines.assign(1, stops.front());
-  demand.assign(1, 0.0);
-  std::size_t cell = 0;
-  for (std::size_t k = 0; k + 1 < stops.size(); ++k)
-  {
-    double total = 0.0;
-    std::size_t end = cell;
-    for (; end < s.Wanted.size() && s.At[end] < stops[k + 1]; ++end)
-    {
-      total += s.Wanted[end] * (s.At[end + 1] - s.At[end]);
-    }
-    const double start = demand.back();
-    const int n = even ? std::min(20000, std::max(1, int(std::ceil(margin * total - 0.02)))) : 1;
-    double done = 0.0;
-    for (int m = 1; m < n; ++m)
-    {
-      const double target = total * m / n;
-      while (cell + 1 < end && done + s.Wanted[cell] * (s.At[cell + 1] - s.At[cell]) < target)
-      {
-        done += s.Wanted[cell] * (s.At[cell + 1] - s.At[cell]);
-        ++cell;
-      }
-      const double t = std::min(s.At[cell + 1], s.At[cell] + (target - done) / s.Wanted[cell]);
-      if (t > lines.back())
-      {
-        lines.push_back(t);
-        demand.push_back(start + target);
-      }
-    }
-    lines.push_back(stops[k + 1]);
-    demand.push_back(start + total);
-    cell = end;
-  }
-}
 } // namespace
 
 void SurfaceTree::MakeLines(
   const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal)
 {
-  const SurfaceView& surface = bound.View();
-  const double low[2] = { domain.U0, domain.V0 };
-  const double high[2] = { domain.U1, domain.V1 };
-  std::vector<double> breaks[2];
-  std::vector<double> stops[2];
-  for (int d = 0; d < 2; ++d)
-  {
-    breaks[d] = SpanBreaks(surface.Knots[d], surface.Degree[d], low[d], high[d]);
-    this->Crease[d] = bound.Creases(d);
-    stops[d] = this->Crease[d];
-    stops[d].insert(stops[d].begin(), low[d]);
-    stops[d].push_back(high[d]);
-  }
   if (goal.Method == SubdivisionMethod::KdTree)
   {
-    DemandSamples u = MakeCells(breaks[0], surface.Degree[0]);
-    DemandSamples v = MakeCells(breaks[1], surface.Degree[1]);
-    SampleDemand(bound, goal.Tolerance, u, v, this->Parallel);
-    ShareTolerance(u, v);
-    const bool evenU = breaks[0].size() <= FewSpans || IsEven(u);
-    const bool evenV = breaks[1].size() <= FewSpans || IsEven(v);
-    const auto place = [&](double margin) {
-      PlaceLines(evenU ? stops[0] : breaks[0], u, margin, evenU, this->Line[0], this->Demand[0]);
-      PlaceLines(evenV ? stops[1] : breaks[1], v, margin, evenV, this->Line[1], this->Demand[1]);
-    };
-    place(1.0);
-    if (evenU || evenV)
+    const LinePlacement placement(bound, domain, goal.Tolerance, this->Parallel);
+    placement.Place(1.0, this->Line[0], this->Line[1]);
+    const bool both = placement.FollowsDemand(0) && placement.FollowsDemand(1);
+    if (both || placement.FollowsDemand(0) || placement.FollowsDemand(1))
     {
-      place(this->BestMargin(bound, goal, evenU && evenV));
+      placement.Place(this->BestMargin(bound, goal, both), this->Line[0], this->Line[1]);
     }
   }
   else
   {
+    const double low[2] = { domain.U0, domain.V0 };
+    const double high[2] = { domain.U1, domain.V1 };
     for (int d = 0; d < 2; ++d)
     {
-      this->Line[d] = stops[d];
-      this->Demand[d].resize(this->Line[d].size());
-      for (std::size_t k = 0; k < this->Line[d].size(); ++k)
-      {
-        this->Demand[d][k] = double(k);
-      }
+      std::vector<double>& at = this->Line[d].At;
+      at = bound.Creases(d);
+      at.insert(at.begin(), low[d]);
+      at.push_back(high[d]);
+      this->Line[d].Demand.resize(at.size());
+      std::iota(this->Line[d].Demand.begin(), this->Line[d].Demand.end(), 0.0);
     }
   }
   for (int d = 0; d < 2; ++d)
   {
-    this->IsCrease[d].assign(this->Line[d].size(), 0);
-    for (double t : bound.Creases(d))
+    this->Crease[d] = bound.Creases(d);
+    const std::vector<double>& lines = this->Line[d].At;
+    this->IsCrease[d].assign(lines.size(), 0);
+    for (double t : this->Crease[d])
     {
-      const auto at = std::lower_bound(this->Line[d].begin(), this->Line[d].end(), t);
-      this->IsCrease[d][at - this->Line[d].begin()] = 1;
+      this->IsCrease[d][std::lower_bound(lines.begin(), lines.end(), t) - lines.begin()] = 1;
     }
   }
 }
@@ -272,14 +67,14 @@ double SurfaceTree::BestMargin(
   constexpr int Samples = 16;
   CellError cell(bound, goal);
   double error[Samples];
-  const std::size_t nu = this->Line[0].size() - 1;
-  const std::size_t nv = this->Line[1].size() - 1;
+  const std::size_t nu = this->Line[0].At.size() - 1;
+  const std::size_t nv = this->Line[1].At.size() - 1;
   for (int k = 0; k < Samples; ++k)
   {
     const std::size_t i = std::size_t((k + 0.5) / Samples * nu);
     const std::size_t j = std::size_t((0.5 + (k * 5) % Samples) / Samples * nv);
-    error[k] = cell.Sampled(
-      { this->Line[0][i], this->Line[0][i + 1], this->Line[1][j], this->Line[1][j + 1] });
+    error[k] = cell.Sampled({ this->Line[0].At[i], this->Line[0].At[i + 1], this->Line[1].At[j],
+      this->Line[1].At[j + 1] });
   }
   std::sort(error, error + Samples);
   double best = 1.0;
@@ -294,7 +89,7 @@ double SurfaceTree::BestMargin(
       failing += BoundSlack * e > goal.Tolerance * margin * margin * (1.0 + 1e-9);
     }
     const double cells =
-      (bothDirections ? margin * margin : margin) * (1.0 + double(failing) / Samples);
+      (bothDirections ? margin * margin : margin) * (1.0 + FailureCost * failing / Samples);
     if (cells < least)
     {
       least = cells;
@@ -306,7 +101,7 @@ double SurfaceTree::BestMargin(
 
 double SurfaceTree::Parameter(int dir, LineCode code) const
 {
-  const std::vector<double>& lines = this->Line[dir];
+  const std::vector<double>& lines = this->Line[dir].At;
   const std::size_t k = std::size_t(code >> FractionBits);
   const LineCode fraction = code & (One - 1);
   return fraction == 0 ? lines[k]
@@ -326,7 +121,7 @@ LineCode SurfaceTree::SplitCode(int dir, LineCode low, LineCode high, bool halve
   if (last - first >= 2)
   {
     // Crease lines first, then the line that halves the demand.
-    const std::vector<double>& demand = this->Demand[dir];
+    const std::vector<double>& demand = this->Line[dir].Demand;
     const double middle = 0.5 * (demand[first] + demand[last]);
     auto at = std::lower_bound(demand.begin() + first, demand.begin() + last, middle);
     LineCode best = at - demand.begin();
@@ -340,8 +135,8 @@ LineCode SurfaceTree::SplitCode(int dir, LineCode low, LineCode high, bool halve
     }
     if (halves)
     {
-      const double t = 0.5 * (this->Line[dir][first] + this->Line[dir][last]);
-      const auto& lines = this->Line[dir];
+      const std::vector<double>& lines = this->Line[dir].At;
+      const double t = 0.5 * (lines[first] + lines[last]);
       best = std::lower_bound(lines.begin(), lines.end(), t) - lines.begin();
     }
     best = std::min(last - 1, std::max(first + 1, best));
@@ -487,11 +282,11 @@ void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, c
   this->Nodes.assign(1, Node());
   this->Cells.clear();
   this->Capped = false;
-  const Range root{ 0, LineCode(this->Line[0].size() - 1) << FractionBits, 0,
-    LineCode(this->Line[1].size() - 1) << FractionBits };
+  const Range root{ 0, LineCode(this->Line[0].At.size() - 1) << FractionBits, 0,
+    LineCode(this->Line[1].At.size() - 1) << FractionBits };
 
   // Step 1: the upper levels in breadth-first order, until there are enough parts to share out.
-  const bool large = (this->Line[0].size() - 1) * (this->Line[1].size() - 1) > 4000;
+  const bool large = (this->Line[0].At.size() - 1) * (this->Line[1].At.size() - 1) > 4000;
   struct Part
   {
     int Node;

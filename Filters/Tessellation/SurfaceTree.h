@@ -8,7 +8,7 @@
 /// from the curvature, rather than a power of two.
 #pragma once
 
-#include "SurfaceBound.h"
+#include "LinePlacement.h"
 #include "Tessellator.h"
 
 namespace nurbs
@@ -59,7 +59,7 @@ public:
   /// The parameter of a code in direction 0 (u) or 1 (v).
   double Parameter(int dir, LineCode code) const;
   /// The shared lines of a direction, ascending.
-  const std::vector<double>& Lines(int dir) const { return this->Line[dir]; }
+  const std::vector<double>& Lines(int dir) const { return this->Line[dir].At; }
   /// Crease knots strictly inside the domain: triangles may not cross them.
   const std::vector<double>& Creases(int dir) const { return this->Crease[dir]; }
 
@@ -147,9 +147,8 @@ private:
   LineCode SplitCode(int dir, LineCode low, LineCode high, bool halves) const;
 
   ParallelFor Parallel = SerialFor;
-  std::vector<double> Line[2];
+  ParameterLines Line[2];
   std::vector<double> Crease[2];
-  std::vector<double> Demand[2]; ///< Accumulated number of segments wanted up to each line.
   std::vector<char> IsCrease[2]; ///< Per line.
   std::vector<Node> Nodes;
   std::vector<TreeLeaf> Cells;
