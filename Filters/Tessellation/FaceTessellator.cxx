@@ -500,12 +500,13 @@ private:
       worst = this->Job.Bound->Flatness() + gap;
     }
     double edges = 0.0;
-    for (const BoundaryVertex* v : this->Segments)
+    for (int k = 0; k < this->BoundaryCount; ++k)
     {
-      if (v->Edge >= 0)
+      if (this->Segments[k]->Edge >= 0)
       {
-        const EdgePolyline& edge = (*this->Job.Edges)[v->Edge];
-        edges = std::max(edges, edge.Error + std::max(edge.Gap, gap));
+        const EdgePolyline& edge = (*this->Job.Edges)[this->Segments[k]->Edge];
+        const double ends = std::max(this->Gaps[k], this->Gaps[this->Next[k]]);
+        edges = std::max(edges, edge.Error + std::max(edge.Gap, ends));
       }
     }
     this->Mesh.CertifiedError = std::max(worst, edges);

@@ -563,7 +563,7 @@ RepairedLoops RepairLoops(const Loops2& loops)
     const Subdivision plane(out.Loops);
     LoopsR kept = plane.Boundary(false);
     LoopsR evenOdd = plane.Boundary(true);
-    const bool positive = TotalArea(kept) >= 0.5 * TotalArea(evenOdd);
+    const bool positive = TotalArea(kept) >= 0.49 * TotalArea(evenOdd);
     out.Loops.swap(positive ? kept : evenOdd);
     if (round == 0)
     {
