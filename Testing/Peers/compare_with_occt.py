@@ -157,8 +157,8 @@ def main():
         tolerance_table(report, relative, index, measured)
     reading_table(report, relatives, measured)
     memory_table(report, relatives, measured)
-    report.save()
+    return report.save()
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
