@@ -1,44 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Measuring.h
-/// @brief What the benchmark programs measure with: elapsed time, medians, memory.
+/// @brief What the benchmark programs measure with: time, medians, memory.
 #pragma once
 
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace measuring
 {
 
-/// Seconds since it was made.
+/// Elapsed seconds, and seconds of this process's own processor time (of all its threads).
+struct Duration
+{
+  double Elapsed = 0.0;
+  double Processor = 0.0;
+};
+
+/// The time since it was made.
 class Stopwatch
 {
 public:
-  double Seconds() const
+  Duration Read() const
   {
-    return std::chrono::duration<double>(Clock::now() - this->Start).count();
+    return { Now(CLOCK_MONOTONIC) - this->Start.Elapsed,
+      Now(CLOCK_PROCESS_CPUTIME_ID) - this->Start.Processor };
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point Start = Clock::now();
+  static double Now(clockid_t clock)
+  {
+    timespec time;
+    clock_gettime(clock, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  }
+  Duration Start{ Now(CLOCK_MONOTONIC), Now(CLOCK_PROCESS_CPUTIME_ID) };
 };
 
-/// Median seconds of at most `repeat` runs; what takes longer than 5 s is run once.
-template <class Work>
-double MedianTime(int repeat, Work&& work)
+inline double Median(std::vector<double> values)
 {
-  std::vector<double> seconds;
-  for (int i = 0; i < repeat && (seconds.empty() || seconds[0] < 5.0); ++i)
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Medians of at most `repeat` runs; what takes longer than 5 s is run once.
+template <class Work>
+Duration MedianTime(int repeat, Work&& work)
+{
+  std::vector<double> elapsed, processor;
+  for (int i = 0; i < repeat && (elapsed.empty() || elapsed[0] < 5.0); ++i)
   {
     const Stopwatch stopwatch;
     work();
-    seconds.push_back(stopwatch.Seconds());
+    const Duration taken = stopwatch.Read();
+    elapsed.push_back(taken.Elapsed);
+    processor.push_back(taken.Processor);
   }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
+  return { Median(elapsed), Median(processor) };
 }
 
 /// The most memory that this process has had, in bytes.

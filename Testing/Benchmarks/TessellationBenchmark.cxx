@@ -189,7 +189,7 @@ vtkUnstructuredGrid* ModelOf(vtkAlgorithm* source)
 nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat)
 {
   vtkSMPTools::Initialize(threads);
-  const double seconds = MedianTime(repeat, [&] {
+  const measuring::Duration taken = MedianTime(repeat, [&] {
     tessellator->Modified();
     tessellator->Update();
   });
@@ -199,9 +199,10 @@ nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat
   }
   auto* mesh = vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(0));
   auto* lines = vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(1));
-  return { { "threads", threads }, { "seconds", seconds },
-    { "triangles", mesh->GetNumberOfPolys() }, { "points", mesh->GetNumberOfPoints() },
-    { "edges", Segments(lines) }, { "tolerance", tessellator->GetToleranceUsed() },
+  return { { "threads", threads }, { "seconds", taken.Elapsed },
+    { "processor_seconds", taken.Processor }, { "triangles", mesh->GetNumberOfPolys() },
+    { "points", mesh->GetNumberOfPoints() }, { "edges", Segments(lines) },
+    { "tolerance", tessellator->GetToleranceUsed() },
     { "certified", tessellator->GetCertifiedError() },
     { "repaired", tessellator->GetNumberOfRepairedFaces() },
     { "capped", tessellator->GetNumberOfCappedFaces() },
@@ -238,7 +239,7 @@ nlohmann::json Run(const Arguments& a)
   result["read"] = MedianTime(a.Repeat, [&] {
     source->Modified();
     source->Update();
-  });
+  }).Elapsed;
   vtkUnstructuredGrid* model = ModelOf(source);
   if (!model || model->GetNumberOfCells() == 0)
   {

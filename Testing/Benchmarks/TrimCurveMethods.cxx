@@ -119,14 +119,14 @@ CurveMethodFigures MeasureInDomain(const std::vector<LiftedCurve>& curves, doubl
   {
     const Stopwatch conversion;
     const std::vector<BezierCurve<2>> pieces = CutLikeLifted(lifted);
-    figures.Conversion += conversion.Seconds();
+    figures.Conversion += conversion.Read().Processor;
     const Stopwatch approximation;
     for (const BezierCurve<2>& piece : pieces)
     {
       const Stretch most = SampleStretch(lifted.Surface, piece);
       figures.Edges += HalveInDomain(piece.Points, most, tolerance, 0);
     }
-    figures.Approximation += approximation.Seconds();
+    figures.Approximation += approximation.Read().Processor;
   }
   return figures;
 }
@@ -144,7 +144,7 @@ CurveMethodFigures MeasureLifted(const std::string& method, const std::vector<Li
     figures.Edges +=
       std::int64_t(ApproximateCurve(lifted.Pieces, tolerance, options, certified).size()) - 1;
   }
-  figures.Approximation = approximation.Seconds();
+  figures.Approximation = approximation.Read().Processor;
   return figures;
 }
 
@@ -189,7 +189,7 @@ CurveMethodTable CompareCurveMethods(
   const CompletedModel completed = CompleteModel(model, faceErrors);
   const Stopwatch lifting;
   const std::vector<LiftedCurve> curves = LiftAll(completed, table);
-  const double conversion = lifting.Seconds();
+  const double conversion = lifting.Read().Processor;
   table.Methods.push_back(MeasureInDomain(curves, tolerance));
   const auto lifted = [&](const std::string& method, const CurveOptions& options) {
     table.Methods.push_back(MeasureLifted(method, curves, conversion, tolerance, options));

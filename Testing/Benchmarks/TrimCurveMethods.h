@@ -12,8 +12,8 @@ namespace nurbs
 struct CurveMethodFigures
 {
   std::string Method;         ///< "2D", "midpoint point", ..., "balanced".
-  double Conversion = 0.0;    ///< Seconds to Bezier form.
-  double Approximation = 0.0; ///< Seconds to polylines.
+  double Conversion = 0.0;    ///< Processor seconds to Bezier form.
+  double Approximation = 0.0; ///< Processor seconds to polylines.
   std::int64_t Edges = 0;     ///< Segments of the polylines.
 };
 

@@ -33,7 +33,7 @@ int main(int argc, char** argv)
   {
     TopoDS_Shape root;
     nlohmann::json result;
-    result["read"] = MedianTime(repeat, [&] { root = verify::ReadShape(file); });
+    result["read"] = MedianTime(repeat, [&] { root = verify::ReadShape(file); }).Elapsed;
     const verify::ReferenceShape shape = verify::Describe(root);
     result["faces"] = shape.Faces.size();
     result["diagonal"] = shape.Diagonal;
@@ -47,7 +47,7 @@ int main(int argc, char** argv)
         OSD_ThreadPool::DefaultPool()->SetNbDefaultThreadsToLaunch(n);
         const double tolerance = relative * shape.Diagonal;
         const double seconds =
-          MedianTime(repeat, [&] { verify::MeshByOcct(root, tolerance, n > 1); });
+          MedianTime(repeat, [&] { verify::MeshByOcct(root, tolerance, n > 1); }).Elapsed;
         long triangles = 0;
         for (const verify::FaceMesh& mesh : verify::TakeOcctMesh(shape))
         {
