@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""From file to picture: the command line's `render` as it is without options (half a pixel), start of
-the process included."""
+"""From file to picture: the command line's `render` without options (half a pixel), start of the
+process included."""
 
 import os
 import sys
