@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # All benchmarks on occt-misc's models and those in the folders given; tables go to the terminal and
-# to build/bench/*.md. BUILD names the build folder (default: build/release). Exits 1, and names them,
-# if scripts fail; a child process that fails or takes too long is a line of its script's table.
-#   run_all.sh [--quick] [FOLDER...]   --quick: at 1e-3 only, one run each, without the paper's tables
+# to build/bench/*.md. BUILD names the build folder (default: build/release). A child process that
+# fails or takes too long is a line beside its script's table. Exits 1, and names the script, if one
+# fails or a child process crashes.
+#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, times and our meshes at 1e-3 only
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 export BUILD="${BUILD:-$here/../../build/release}"
-quick=no tolerances=1e-3,1e-4 repeat=3
+quick=no tolerances=1e-3,1e-4
 if [ "${1:-}" = --quick ]; then
-  quick=yes tolerances=1e-3 repeat=1
+  quick=yes tolerances=1e-3
   shift
 fi
 
@@ -27,14 +28,14 @@ step() {
 
 folders=("$@")
 step pictures.py
-step ../Peers/compare_with_occt.py --tolerances "$tolerances" --repeat "$repeat"
+step ../Peers/compare_with_occt.py --tolerances "$tolerances"
 if [ $quick = no ]; then
   step scale.py
   step paper_tables.py
 fi
 step ../Peers/verify_all.py --tolerances "$tolerances"
 if [ $quick = no ]; then
-  step ../Peers/verify_all.py --tolerances "$tolerances" --error estimated
+  step ../Peers/verify_all.py --tolerances 1e-3 --error estimated
   step ../Peers/verify_all.py --tolerances "$tolerances" --occt
 fi
 printf '\n'

@@ -89,6 +89,7 @@ KEYS = [
 def main():
     options = bench.arguments(
         __doc__,
+        limit=120,
         tolerances=("1e-3,1e-4", "tolerances over the diagonal"),
         error=("guaranteed", "error mode of our tessellator: guaranteed or estimated"),
         occt=(False, "measure OpenCASCADE's meshes instead of ours"),
