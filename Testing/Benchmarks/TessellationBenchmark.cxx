@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times reading and tessellating of one model through the suite's filters and prints JSON; see --help.
+#include "Measuring.h"
+#include "TrimCurveMethods.h"
 #include "vtkNURBSCADReader.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
 #include "vtkNURBSTessellator.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -21,10 +24,12 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <iostream>
+
+using measuring::MedianTime;
+using measuring::PeakMemory;
 
 namespace
 {
@@ -36,35 +41,8 @@ struct Arguments
   std::vector<std::string> Methods{ "kd-tree" }, Errors{ "guaranteed" };
   std::vector<int> Threads{ 1 };
   int Repeat = 3;
-  bool NoSimplify = false, NoBalance = false;
+  bool NoSimplify = false, NoBalance = false, CurveTable = false;
 };
-
-double Now()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double PeakMemory()
-{
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * double(usage.ru_maxrss);
-}
-
-/// Median over at most @a repeat runs; what takes longer than 5 s is run once.
-template <class Work>
-double Time(int repeat, Work&& work)
-{
-  std::vector<double> seconds;
-  for (int i = 0; i < repeat && (seconds.empty() || seconds[0] < 5.0); ++i)
-  {
-    const double start = Now();
-    work();
-    seconds.push_back(Now() - start);
-  }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
-}
 
 void Declare(CLI::App& app, Arguments& a)
 {
@@ -86,6 +64,8 @@ void Declare(CLI::App& app, Arguments& a)
     ->check(CLI::IsMember({ "point", "line" }));
   app.add_flag("--no-simplify", a.NoSimplify, "Keep every vertex of the trimming polylines");
   app.add_flag("--no-balance", a.NoBalance, "Subdivide trim curves as in the paper");
+  app.add_flag("--curves", a.CurveTable,
+    "Also measure every way to turn trim curves into polylines, at the last tolerance");
   app.add_option("--threads", a.Threads, "Numbers of threads")->capture_default_str();
   app.add_option("--repeat", a.Repeat, "Runs of which the median counts")->capture_default_str();
   app.add_option("--output", a.Output, "Write the last mesh to this .vtp file");
@@ -137,9 +117,6 @@ void SetCurveOptions(vtkNURBSTessellator* tessellator, const Arguments& a)
     a.Measure == "point" ? tessellator->SetCurveMeasureToPoint()
                          : tessellator->SetCurveMeasureToLine();
   }
-  // The paper's methods are asked for by name; our own is the default.
-  tessellator->SetCurveBalancing(
-    a.Subdivision == "default" && a.Measure == "default" && !a.NoSimplify);
   tessellator->SetCurveSimplification(!a.NoSimplify);
   tessellator->SetCurveBalancing(!a.NoBalance);
 }
@@ -212,7 +189,7 @@ vtkUnstructuredGrid* ModelOf(vtkAlgorithm* source)
 nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat)
 {
   vtkSMPTools::Initialize(threads);
-  const double seconds = Time(repeat, [&] {
+  const measuring::Duration taken = MedianTime(repeat, [&] {
     tessellator->Modified();
     tessellator->Update();
   });
@@ -222,13 +199,35 @@ nlohmann::json Measure(vtkNURBSTessellator* tessellator, int threads, int repeat
   }
   auto* mesh = vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(0));
   auto* lines = vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(1));
-  return { { "threads", threads }, { "seconds", seconds },
-    { "triangles", mesh->GetNumberOfPolys() }, { "points", mesh->GetNumberOfPoints() },
-    { "edges", Segments(lines) }, { "certified", tessellator->GetCertifiedError() },
+  return { { "threads", threads }, { "seconds", taken.Elapsed },
+    { "processor_seconds", taken.Processor }, { "triangles", mesh->GetNumberOfPolys() },
+    { "points", mesh->GetNumberOfPoints() }, { "edges", Segments(lines) },
+    { "tolerance", tessellator->GetToleranceUsed() },
+    { "certified", tessellator->GetCertifiedError() },
     { "repaired", tessellator->GetNumberOfRepairedFaces() },
     { "capped", tessellator->GetNumberOfCappedFaces() },
     { "failed", tessellator->GetNumberOfFailedFaces() },
     { "kernel_seconds", tessellator->GetTessellateSeconds() }, { "digest", Digest(mesh) } };
+}
+
+/// Table 2 of the paper, see TrimCurveMethods.h.
+nlohmann::json MeasureCurves(vtkUnstructuredGrid* model, double tolerance)
+{
+  const auto view = vtkNURBSModel::View(model);
+  std::vector<std::string> errors;
+  for (vtkIdType face = 0; face < model->GetNumberOfCells(); ++face)
+  {
+    errors.push_back(view->GetFaceError(face));
+  }
+  const nurbs::CurveMethodTable table =
+    nurbs::CompareCurveMethods(view->GetModel(), errors, tolerance);
+  nlohmann::json result = { { "curves", table.Curves }, { "failed", table.Failed } };
+  for (const nurbs::CurveMethodFigures& m : table.Methods)
+  {
+    result["methods"][m.Method] = { { "conversion", m.Conversion },
+      { "approximation", m.Approximation }, { "edges", m.Edges } };
+  }
+  return result;
 }
 
 nlohmann::json Run(const Arguments& a)
@@ -237,10 +236,10 @@ nlohmann::json Run(const Arguments& a)
   result["memory_start"] = PeakMemory();
   const vtkSmartPointer<vtkAlgorithm> source = MakeSource(a);
   vtkSMPTools::Initialize(1);
-  result["read"] = Time(a.Repeat, [&] {
+  result["read"] = MedianTime(a.Repeat, [&] {
     source->Modified();
     source->Update();
-  });
+  }).Elapsed;
   vtkUnstructuredGrid* model = ModelOf(source);
   if (!model || model->GetNumberOfCells() == 0)
   {
@@ -281,6 +280,10 @@ nlohmann::json Run(const Arguments& a)
     }
   }
   result["memory"] = PeakMemory();
+  if (a.CurveTable)
+  {
+    result["curves"] = MeasureCurves(model, tessellator->GetToleranceUsed());
+  }
   if (!a.Output.empty())
   {
     vtkNew<vtkXMLPolyDataWriter> writer;

@@ -10,20 +10,25 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BUILD = os.environ.get("BUILD", os.path.join(ROOT, "build", "release"))
 OUTPUT = os.environ.get("NURBS_BENCH_OUTPUT", os.path.join(ROOT, "build", "bench"))
 OCCT_DATA = "/usr/share/opencascade/data"
+MARK = "<!-- measured -->"
+CRASHED = []  # Commands of child processes that a signal ended.
 WITHOUT_FACES = {"asahi.brep", "edge.brep"}
 
 
-def arguments(description, **extra):
+def arguments(description, limit=300, **extra):
     """The options that every script has, and those in extra (name=(default, help))."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folders", nargs="*", help="folders of more models")
     parser.add_argument("--only", default="", help="names that must contain one of these (a,b,...)")
-    parser.add_argument("--limit", type=float, default=300, help="seconds a child process may take")
+    parser.add_argument(
+        "--limit", type=float, default=limit, help="seconds a child process may take"
+    )
     for name, (default, text) in extra.items():
         kind = {"action": "store_true"} if isinstance(default, bool) else {"type": type(default)}
         if not isinstance(default, bool):
@@ -59,21 +64,28 @@ def program(name):
     return path
 
 
-def run_json(command, limit):
-    """The last JSON line that the command prints, or {"error": ...}. Other output is kept."""
+def run(command, limit):
+    """(standard output, None) of the command, or (it, why it failed)."""
     try:
-        done = subprocess.run(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=limit, text=True
-        )
+        done = subprocess.run(command, capture_output=True, timeout=limit, text=True, check=False)
     except subprocess.TimeoutExpired:
-        return {"error": f"no result in {limit:g} s"}
-    for line in reversed(done.stdout.splitlines()):
-        if line.startswith("{"):
-            return json.loads(line)
+        return "", f"no result in {limit:g} s"
     if done.returncode < 0:
-        return {"error": f"killed by {signal.Signals(-done.returncode).name}"}
-    message = done.stderr.strip().splitlines()
-    return {"error": message[-1] if message else f"exit status {done.returncode}"}
+        CRASHED.append(" ".join(command))
+        return done.stdout, f"killed by {signal.Signals(-done.returncode).name}"
+    if done.returncode > 0:
+        message = done.stderr.strip().splitlines()
+        return done.stdout, message[-1] if message else f"exit status {done.returncode}"
+    return done.stdout, None
+
+
+def run_json(command, limit):
+    """The last JSON line that the command prints, or {"error": ...}."""
+    output, problem = run(command, limit)
+    for line in reversed(output.splitlines()):
+        if problem is None and line.startswith("{"):
+            return json.loads(line)
+    return {"error": problem or "no result was printed"}
 
 
 def scratch(suffix):
@@ -114,33 +126,47 @@ def show(value):
 
 
 class Report:
-    """Text and tables, to the terminal as they come and to build/bench/NAME.md at the end."""
+    """Markdown, to the terminal as it comes and to build/bench/NAME.md at the end."""
 
     def __init__(self, name, title):
         self.name = name
         self.lines = []
+        self.start = time.monotonic()
         self.text(f"# {title}")
         self.text(machine())
 
     def text(self, line):
-        print(line, flush=True)
-        self.lines += [line, ""]
+        self.print([line, ""])
 
     def table(self, header, rows):
         cells = [[show(c) for c in row] for row in [header] + rows]
-        width = [max(len(row[i]) for row in cells) for i in range(len(header))]
+        width = [max(3, *(len(row[i]) for row in cells)) for i in range(len(header))]
+        lines = []
         for row in cells:
-            left = row[0].ljust(width[0])
-            print("  ".join([left] + [c.rjust(w) for c, w in zip(row[1:], width[1:])]), flush=True)
-        print()
-        self.lines.append("| " + " | ".join(cells[0]) + " |")
-        self.lines.append("|---" + "|--:" * (len(header) - 1) + "|")
-        self.lines += ["| " + " | ".join(row) + " |" for row in cells[1:]]
-        self.lines.append("")
+            padded = [c.rjust(w) for c, w in zip(row, width)]
+            lines.append("| " + " | ".join([row[0].ljust(width[0])] + padded[1:]) + " |")
+        rule = ["-" * width[0]] + ["-" * (w - 1) + ":" for w in width[1:]]
+        self.print([lines[0], "| " + " | ".join(rule) + " |", *lines[1:], ""])
+
+    def print(self, lines):
+        print("\n".join(lines), flush=True)
+        self.lines += lines
+
+    def paste(self, page):
+        """Replaces everything behind the page's line MARK by what was printed, title left out."""
+        with open(page, encoding="utf-8") as file:
+            written = file.read().split(MARK)[0]
+        with open(page, "w", encoding="utf-8") as file:
+            file.write("\n".join([written + MARK, "", *self.lines[2:]]))
 
     def save(self):
+        """Writes the file; the script's exit status: 1 if a child process crashed."""
+        for command in CRASHED:
+            self.text(f"- crashed: {command}")
+        self.text(f"{time.monotonic() - self.start:.0f} s in all.")
         os.makedirs(OUTPUT, exist_ok=True)
         path = os.path.join(OUTPUT, self.name + ".md")
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(self.lines))
         print(f"written to {path}", flush=True)
+        return 1 if CRASHED else 0

@@ -1,24 +1,46 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # All benchmarks on occt-misc's models and those in the folders given; tables go to the terminal and
-# to build/bench/*.md. BUILD names the build folder (default: build/release).
-#   run_all.sh [--quick] [FOLDER...]     --quick: leave the verification at 1e-4 out
+# to build/bench/*.md. BUILD names the build folder (default: build/release). A child process that
+# fails or takes too long is a line beside its script's table. Exits 1, and names the script, if one
+# fails or a child process crashes.
+#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, times and our meshes at 1e-3 only
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 export BUILD="${BUILD:-$here/../../build/release}"
-tolerances=1e-3,1e-4
+quick=no tolerances=1e-3,1e-4
 if [ "${1:-}" = --quick ]; then
-  tolerances=1e-3
+  quick=yes tolerances=1e-3
   shift
 fi
-status=0
-python3 "$here/../Peers/compare_with_occt.py" "$@" || status=1
-python3 "$here/scale.py" "$@" || status=1
-python3 "$here/paper_tables.py" "$@" || status=1
-python3 "$here/pictures.py" "$@" || status=1
-for options in "" "--error estimated" "--occt"; do
-  # A mesh that fails the verification is a finding, shown in its table; OpenCASCADE's do.
-  # shellcheck disable=SC2086
-  python3 "$here/../Peers/verify_all.py" --tolerances "$tolerances" $options "$@" || true
-done
-exit $status
+
+failed=()
+times=()
+# step SCRIPT [ARG...]: runs it with the folders, and goes on if it fails.
+step() {
+  local start=$SECONDS status=0 words="$*"
+  printf '\n== %s\n' "$words"
+  python3 "$here/$1" "${@:2}" "${folders[@]}" || status=$?
+  # A mesh that fails the verification (3) is a finding, shown in its table; OpenCASCADE's do.
+  [ $status -eq 0 ] || [ $status -eq 3 ] || failed+=("$words (exit status $status)")
+  times+=("$((SECONDS - start)) s: $words")
+}
+
+folders=("$@")
+step pictures.py
+step ../Peers/compare_with_occt.py --tolerances "$tolerances"
+if [ $quick = no ]; then
+  step scale.py
+  step paper_tables.py
+fi
+step ../Peers/verify_all.py --tolerances "$tolerances"
+if [ $quick = no ]; then
+  step ../Peers/verify_all.py --tolerances 1e-3 --error estimated
+  step ../Peers/verify_all.py --tolerances "$tolerances" --occt
+fi
+printf '\n'
+printf '%s\n' "${times[@]}"
+if [ ${#failed[@]} -gt 0 ]; then
+  printf 'FAILED: %s\n' "${failed[@]}"
+  exit 1
+fi

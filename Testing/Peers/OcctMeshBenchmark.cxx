@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times OpenCASCADE's reader and BRepMesh on one file and prints JSON; see --help.
+#include "Measuring.h"
 #include "OcctMesh.h"
 #include "ReferenceShape.h"
 
@@ -8,49 +9,13 @@
 #include <OSD_ThreadPool.hxx>
 #include <Standard_Failure.hxx>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
-namespace
-{
-
-double Now()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double Median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-double PeakMemory()
-{
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * double(usage.ru_maxrss);
-}
-
-/// Medians over at most @a repeat runs; what takes longer than 5 s is run once.
-template <class Work>
-double Time(int repeat, Work&& work)
-{
-  std::vector<double> seconds;
-  for (int i = 0; i < repeat && (seconds.empty() || seconds[0] < 5.0); ++i)
-  {
-    const double start = Now();
-    work();
-    seconds.push_back(Now() - start);
-  }
-  return Median(seconds);
-}
-
-} // namespace
+using measuring::MedianTime;
+using measuring::PeakMemory;
 
 int main(int argc, char** argv)
 {
@@ -68,7 +33,7 @@ int main(int argc, char** argv)
   {
     TopoDS_Shape root;
     nlohmann::json result;
-    result["read"] = Time(repeat, [&] { root = verify::ReadShape(file); });
+    result["read"] = MedianTime(repeat, [&] { root = verify::ReadShape(file); }).Elapsed;
     const verify::ReferenceShape shape = verify::Describe(root);
     result["faces"] = shape.Faces.size();
     result["diagonal"] = shape.Diagonal;
@@ -81,7 +46,8 @@ int main(int argc, char** argv)
           tbb::global_control::max_allowed_parallelism, std::size_t(std::max(1, n)));
         OSD_ThreadPool::DefaultPool()->SetNbDefaultThreadsToLaunch(n);
         const double tolerance = relative * shape.Diagonal;
-        const double seconds = Time(repeat, [&] { verify::MeshByOcct(root, tolerance, n > 1); });
+        const double seconds =
+          MedianTime(repeat, [&] { verify::MeshByOcct(root, tolerance, n > 1); }).Elapsed;
         long triangles = 0;
         for (const verify::FaceMesh& mesh : verify::TakeOcctMesh(shape))
         {
