@@ -11,7 +11,6 @@ namespace nurbs
 
 namespace
 {
-constexpr int Densest = 8;
 constexpr double SlidingShare = 0.1; // What second derivatives along the surface weigh in a split.
 
 // The facets of each diagonal by corner index; the first lies beneath the diagonal from (0,0), or
@@ -38,10 +37,9 @@ bool CellError::IsCollapsed(const int* f) const
 
 void CellError::MakeCorners(const ParameterBox& box)
 {
-  for (int k = 0; k < 4; ++k)
-  {
-    this->At[k] = this->Evaluator.Point(k & 1 ? box.U1 : box.U0, k >> 1 ? box.V1 : box.V0);
-  }
+  const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
+    Vec2(box.U1, box.V1) };
+  this->Evaluator.Batch(uv, 4, this->At[0].data(), this->Normal[0].data());
 }
 
 // Samples of the cell, k in each direction.
@@ -52,17 +50,16 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
     return;
   }
   this->Density = k;
-  this->Sample.resize(std::size_t(k + 1) * (k + 1));
-  this->Normal.resize(this->Sample.size());
-  for (int j = 0; j <= k; ++j)
+  double us[Densest + 1];
+  double vs[Densest + 1];
+  for (int i = 0; i <= k; ++i)
   {
-    for (int i = 0; i <= k; ++i)
-    {
-      const std::size_t at = i + std::size_t(j) * (k + 1);
-      this->Evaluator.PointAndNormal(
-        box.U0 + box.A() * i / k, box.V0 + box.B() * j / k, this->Sample[at], this->Normal[at]);
-    }
+    us[i] = box.U0 + box.A() * i / k;
+    vs[i] = box.V0 + box.B() * i / k;
   }
+  const std::size_t n = std::size_t(k) + 1;
+  this->Evaluator.Grid(ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(),
+    this->SampleNormal[0].data());
 }
 
 // The samples in one half of the cell, or (`alone`) all of them, against its facet.
@@ -90,7 +87,7 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
                                            : side == 0 && !alone;
         if (on)
         {
-          samples.AddEdge(facet, edge, x, this->Normal[i + std::size_t(j) * (k + 1)]);
+          samples.AddEdge(facet, edge, x, this->SampleNormal[i + std::size_t(j) * (k + 1)]);
         }
       }
     }
@@ -132,47 +129,29 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
   for (int half = 0; half < 2; ++half)
   {
     const int* f = Facets[diagonal][half];
-    const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
     if (this->IsCollapsed(f))
     {
       continue; // At a pole: no triangle comes out.
     }
+    const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
     const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
-    const Remainder rest(this->Second, box.A(), box.B(), facet);
     double error = 1e300;
     if (guaranteed)
     {
       // The bilinear interpolant of the heights is a quarter of that of the fourth corner at most.
-      const double twist =
-        std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
-      Remainder whole = rest;
-      if (facet.HasPlane() && !alone)
+      const double twist = alone
+        ? -1.0
+        : 0.25 * std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
+      SampleDistance corners;
+      for (int i = 0; i < 3; ++i)
       {
-        whole.Across = std::min(
-          whole.Across, this->Second.Bow(box.A(), box.B(), facet.Normal(), false) + 0.25 * twist);
+        corners.AddSlope(facet, this->Normal[f[i]]);
       }
-      error = CombineError(SampleDistance(), whole, 1);
+      error = CombineError(corners, Remainder(this->Second, box.A(), box.B(), facet, twist), 1);
     }
-    for (int k = 2; error > tolerance; k *= 2)
+    if (error > tolerance)
     {
-      this->SampleGrid(box, k);
-      const SampleDistance samples = this->Samples(facet, diagonal, half, alone);
-      const bool dense = k == Densest || (k == 4 && !guaranteed);
-      if (!guaranteed && (dense || !this->Bound.HasGridLineInside(box)))
-      {
-        error = samples.Largest();
-        break;
-      }
-      if (guaranteed)
-      {
-        error = std::min(error, CombineError(samples, rest, k));
-      }
-      if (samples.Largest() > tolerance || dense ||
-        (guaranteed && CombineError(samples, rest, Densest) > tolerance))
-      {
-        error = guaranteed ? error : samples.Largest();
-        break;
-      }
+      error = std::min(error, this->DenseError(facet, diagonal, half, alone, box));
     }
     worst = std::max(worst, error);
     if (worst > tolerance || worst >= best)
@@ -183,30 +162,57 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
   return worst;
 }
 
+// The error by samples, as many as it takes to tell.
+double CellError::DenseError(
+  const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box)
+{
+  const double tolerance = this->Goal.Tolerance;
+  const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
+  const Remainder rest(this->Second, box.A(), box.B(), facet);
+  for (int k = 2;; k *= 2)
+  {
+    this->SampleGrid(box, k);
+    const SampleDistance samples = this->Samples(facet, diagonal, half, alone);
+    if (!guaranteed)
+    {
+      if (k == 4 || samples.Largest() > tolerance || !this->Bound.HasGridLineInside(box))
+      {
+        return samples.Largest();
+      }
+      continue;
+    }
+    const double error = CombineError(samples, rest, k);
+    if (error <= tolerance || samples.Largest() > tolerance || k == Densest ||
+      CombineError(samples, rest, Densest) > tolerance)
+    {
+      return error;
+    }
+  }
+}
+
 double CellError::Measure(TreeLeaf& leaf)
 {
   const ParameterBox& box = leaf.Box;
+  const double tolerance = this->Goal.Tolerance;
   this->Density = 0;
   // The middle lies on both diagonals: if it is too far from both, the cell has failed.
   const Vec3 middle = this->Evaluator.Point(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1));
   double far[2];
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
-    far[diagonal] = 1e300;
-    for (const int* f : Facets[diagonal])
-    {
-      SampleDistance sample;
-      sample.Add(Facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]), middle);
-      far[diagonal] = std::min(far[diagonal], sample.Far);
-    }
+    const Vec3& x = this->At[diagonal == 0 ? 0 : 1];
+    const Vec3 edge = this->At[diagonal == 0 ? 3 : 2] - x;
+    const double square = edge.squaredNorm();
+    const double s = square > 0.0 ? edge.dot(middle - x) / square : 0.0;
+    far[diagonal] = (middle - x - std::min(1.0, std::max(0.0, s)) * edge).norm();
   }
   leaf.Diagonal = far[0] <= far[1] ? 0 : 1;
-  if (std::min(far[0], far[1]) > this->Goal.Tolerance)
+  if (far[leaf.Diagonal] > tolerance && this->IsBeyond(middle))
   {
     return far[leaf.Diagonal];
   }
   double error = this->Halves(leaf.Diagonal, box, 1e300);
-  if (error > this->Goal.Tolerance)
+  if (error > tolerance)
   {
     const double other = this->Halves(1 - leaf.Diagonal, box, error);
     if (other < error)
@@ -216,6 +222,24 @@ double CellError::Measure(TreeLeaf& leaf)
     }
   }
   return error;
+}
+
+// True if the cell's middle is too far from the facets of both diagonals.
+bool CellError::IsBeyond(const Vec3& middle) const
+{
+  for (const auto& diagonal : Facets)
+  {
+    for (const int* f : { diagonal[0], diagonal[1] })
+    {
+      SampleDistance sample;
+      sample.Add(Facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]), middle);
+      if (sample.Far <= this->Goal.Tolerance)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 int CellError::CheaperAxis(const ParameterBox& box) const
@@ -239,7 +263,7 @@ int CellError::CheaperAxis(const ParameterBox& box) const
   return u >= v ? 0 : 1;
 }
 
-bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
+bool CellError::ExceedsLimits(int& axis) const
 {
   const auto length = [&](int i, int j) { return (this->At[i] - this->At[j]).norm(); };
   const double lu = std::max(length(0, 1), length(2, 3));
@@ -251,15 +275,9 @@ bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
   }
   if (this->Goal.MaximumAngle > 0.0)
   {
-    Vec3 point;
-    Vec3 normal[4];
-    for (int k = 0; k < 4; ++k)
-    {
-      this->Evaluator.PointAndNormal(
-        k & 1 ? box.U1 : box.U0, k >> 1 ? box.V1 : box.V0, point, normal[k]);
-    }
     const auto angle = [&](int i, int j) {
-      return std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
+      return std::atan2(
+        this->Normal[i].cross(this->Normal[j]).norm(), this->Normal[i].dot(this->Normal[j]));
     };
     const double au = std::max(angle(0, 1), angle(2, 3));
     const double av = std::max(angle(0, 2), angle(1, 3));
@@ -279,7 +297,7 @@ int CellError::Examine(TreeLeaf& leaf)
   this->Second = this->Bound.Over(box);
   leaf.Error = this->Measure(leaf);
   int axis = leaf.Axis = this->CheaperAxis(box);
-  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(box, axis) ? -1 : axis;
+  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(axis) ? -1 : axis;
 }
 
 } // namespace nurbs

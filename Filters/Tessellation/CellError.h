@@ -31,15 +31,20 @@ private:
   bool IsCollapsed(const int* facet) const;
   void SampleGrid(const ParameterBox& box, int k);
   int CheaperAxis(const ParameterBox& box) const;
-  bool ExceedsLimits(const ParameterBox& box, int& axis);
+  double DenseError(
+    const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box);
+  bool IsBeyond(const Vec3& middle) const;
+  bool ExceedsLimits(int& axis) const;
 
   const SurfaceBound& Bound;
   const TreeGoal& Goal;
   SurfaceEvaluator Evaluator;
   SecondDerivatives Second;
-  Vec3 At[4];               ///< Corners (0,0), (1,0), (0,1), (1,1).
-  std::vector<Vec3> Sample; ///< (Density + 1)^2 points, u fastest,
-  std::vector<Vec3> Normal; ///< and normals.
+  Vec3 At[4];     ///< Corners (0,0), (1,0), (0,1), (1,1),
+  Vec3 Normal[4]; ///< and normals there.
+  static constexpr int Densest = 8;
+  Vec3 Sample[(Densest + 1) * (Densest + 1)];       ///< (Density + 1)^2 points, u fastest,
+  Vec3 SampleNormal[(Densest + 1) * (Densest + 1)]; ///< and normals.
   int Density = 0;
 };
 

@@ -65,10 +65,17 @@ double FaceErrors::TriangleError(FacetBound& bound, const int* t) const
   }
   const Vec3* x = this->Mesh.Points.data();
   const Vec2* uv = this->Mesh.UV.data();
-  const bool boundary[3] = { this->IsSegment(t[0], t[1]), this->IsSegment(t[1], t[2]),
-    this->IsSegment(t[2], t[0]) };
-  return bound.Error({ x[t[0]], x[t[1]], x[t[2]] }, { uv[t[0]], uv[t[1]], uv[t[2]] },
-    this->GapOf(t), boundary, this->PoleOf(t), this->Limit(t));
+  FacetBound::Triangle triangle;
+  for (int i = 0; i < 3; ++i)
+  {
+    triangle.X[i] = x[t[i]];
+    triangle.UV[i] = uv[t[i]];
+    triangle.Normal[i] = this->Mesh.Normals[t[i]];
+    triangle.Boundary[i] = this->IsSegment(t[i], t[(i + 1) % 3]);
+  }
+  triangle.Gap = this->GapOf(t);
+  triangle.Pole = this->PoleOf(t);
+  return bound.Error(triangle, this->Limit(t));
 }
 
 } // namespace nurbs

@@ -99,11 +99,7 @@ void SampleDistance::Add(const Facet& facet, const Vec3& p)
   facet.Measure(p, height, outside);
   this->Height = std::max(this->Height, height);
   this->Outside = std::max(this->Outside, outside);
-  this->Far = std::max(this->Far, std::hypot(height, outside));
-  for (int i = 0; i < 3 && outside > 0.0; ++i)
-  {
-    this->Beyond = this->Beyond || (facet.IsBoundary(i) && facet.Across(i, p) > 0.0);
-  }
+  this->Far = std::max(this->Far, std::sqrt(height * height + outside * outside));
 }
 
 void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal)
@@ -113,7 +109,12 @@ void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const 
   facet.Measure(p, height, outside);
   const double inside = std::max(0.0, -facet.Across(edge, p));
   this->Inside = std::max(this->Inside, inside);
-  this->Edge = std::max(this->Edge, std::hypot(height, inside));
+  this->Edge = std::max(this->Edge, std::sqrt(height * height + inside * inside));
+  this->AddSlope(facet, normal);
+}
+
+void SampleDistance::AddSlope(const Facet& facet, const Vec3& normal)
+{
   const double c = std::abs(normal.dot(facet.Normal()));
   this->Slope = std::max(
     this->Slope, c > SteepestCosine ? std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0)) : TooSteep);
@@ -121,24 +122,22 @@ void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const 
 
 double SampleDistance::Largest() const
 {
-  const double aside = this->Beyond ? 1e300 : DihedralSlack * this->Slope * this->Outside;
-  return std::max(std::min(this->Far, this->Height + aside),
+  return std::max(std::min(this->Far, this->Height + DihedralSlack * this->Slope * this->Outside),
     std::min(this->Edge, this->Height + SlopeSlack * this->Slope * this->Inside));
 }
 
-Remainder::Remainder(const SecondDerivatives& second, double a, double b, const Facet& facet)
+Remainder::Remainder(
+  const SecondDerivatives& second, double a, double b, const Facet& facet, double twist)
 {
-  this->Any = second.Bow(a, b);
-  if (facet.HasPlane())
+  if (!facet.HasPlane())
   {
-    this->Across = std::min(this->Any, second.Bow(a, b, facet.Normal()));
-    this->Along = std::min(this->Any,
-      std::hypot(second.Bow(a, b, facet.Tangent(0)), second.Bow(a, b, facet.Tangent(1))));
+    this->Along = second.Bow(a, b);
+    return;
   }
-  else
-  {
-    this->Along = this->Any;
-  }
+  this->Across = second.Bow(a, b, facet.Normal(), twist < 0.0) + std::max(0.0, twist);
+  const double t0 = second.Bow(a, b, facet.Tangent(0));
+  const double t1 = second.Bow(a, b, facet.Tangent(1));
+  this->Along = std::sqrt(t0 * t0 + t1 * t1);
 }
 
 double CombineError(const SampleDistance& samples, const Remainder& rest, int density)
@@ -147,17 +146,15 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
   const double across = share * rest.Across;
   const double along = share * rest.Along;
   const double both = std::hypot(across, along);
-  const double far =
-    std::min(std::hypot(samples.Height + across, samples.Outside + along), samples.Far + both);
-  if (density == 1)
-  {
-    return far;
-  }
   const double height = samples.Height + across;
-  const double beyond =
-    samples.Beyond ? 1e300 : DihedralSlack * samples.Slope * (samples.Outside + along);
-  const double within = SlopeSlack * samples.Slope * (samples.Inside + along);
-  return std::max(std::min(far, height + beyond), std::min(samples.Edge + both, height + within));
+  const double outside = samples.Outside + along;
+  const double inside = samples.Inside + along;
+  // What slopes make of distances along the facet; where they are steep, distances count in full.
+  const double beyond = std::min({ std::hypot(height, outside), samples.Far + both,
+    height + DihedralSlack * samples.Slope * outside });
+  const double within = height + SlopeSlack * samples.Slope * inside;
+  return std::max(
+    beyond, density == 1 ? std::min(beyond, within) : std::min(samples.Edge + both, within));
 }
 
 FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
@@ -166,47 +163,39 @@ FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
   , Guaranteed(mode == ErrorMode::Guaranteed)
 {}
 
-double FacetBound::Error(const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap,
-  const bool (&boundary)[3], int pole, double limit)
+double FacetBound::Error(const Triangle& t, double limit)
 {
-  Facet facet(x[0], x[1], x[2]);
-  for (int i = 0; i < 3; ++i)
+  const Facet facet(t.X[0], t.X[1], t.X[2]);
+  if (t.Pole < 0 && !this->Bound.CrossesCrease(BoxOf(t.UV)))
   {
-    if (boundary[i])
-    {
-      facet.SetBoundary(i);
-    }
+    return this->Part(t, facet, t.UV, true, limit);
   }
-  if (pole < 0 && !this->Bound.CrossesCrease(BoxOf(uv)))
-  {
-    return this->Piece(facet, uv, true, gap, limit);
-  }
-  Vec2 from[3] = { uv[0], uv[1], uv[2] }; // Between which parameters the curve of each edge runs.
-  Vec2 to[3] = { uv[1], uv[2], uv[0] };
+  Vec2 from[3] = { t.UV[0], t.UV[1], t.UV[2] }; // Parameters between which each edge's curve runs.
+  Vec2 to[3] = { t.UV[1], t.UV[2], t.UV[0] };
   double error = 0.0;
-  if (pole < 0)
+  if (t.Pole < 0)
   {
-    error = this->Piece(facet, uv, false, gap, limit);
+    error = this->Piece(t, facet, t.UV, limit);
   }
   else
   {
     // The region between the base and the pole's side, which runs along u or v.
-    const Vec2& a = uv[(pole + 1) % 3];
-    const Vec2& b = uv[(pole + 2) % 3];
+    const Vec2& a = t.UV[(t.Pole + 1) % 3];
+    const Vec2& b = t.UV[(t.Pole + 2) % 3];
     const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
-    Vec2& pa = from[pole];
-    Vec2& pb = to[(pole + 2) % 3];
+    Vec2& pa = from[t.Pole];
+    Vec2& pb = to[(t.Pole + 2) % 3];
     pa[d] = a[d];
     pb[d] = b[d];
-    error = this->Piece(facet, { pa, a, b }, false, gap, limit);
+    error = this->Piece(t, facet, { pa, a, b }, limit);
     if (error <= limit)
     {
-      error = std::max(error, this->Piece(facet, { pa, b, pb }, false, gap, limit));
+      error = std::max(error, this->Piece(t, facet, { pa, b, pb }, limit));
     }
   }
   for (int i = 0; i < 3 && error <= limit; ++i)
   {
-    error = boundary[i] ? error : std::max(error, this->EdgeError(facet, i, from[i], to[i]));
+    error = t.Boundary[i] ? error : std::max(error, this->EdgeError(facet, i, from[i], to[i]));
   }
   return error;
 }
@@ -250,8 +239,8 @@ double FacetBound::EdgeError(const Facet& facet, int edge, const Vec2& a, const 
   return CombineError(samples, rest, Samples);
 }
 
-double FacetBound::Piece(
-  const Facet& facet, const Vec2 (&uv)[3], bool inscribed, double gap, double limit)
+// A part of the triangle's parameters, cut where it crosses creases.
+double FacetBound::Piece(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], double limit)
 {
   const ParameterBox box = BoxOf(uv);
   for (int d = 0; d < 2; ++d)
@@ -263,18 +252,31 @@ double FacetBound::Piece(
     {
       if (crease > low + eps && crease < high - eps)
       {
-        return this->Cut(facet, uv, gap, limit, d, crease);
+        return this->Cut(t, facet, uv, limit, d, crease);
       }
     }
   }
+  return this->Part(t, facet, uv, false, limit);
+}
+
+// A part of the triangle's parameters between creases; `whole`: all of it, so that its corners are
+// the triangle's.
+double FacetBound::Part(
+  const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], bool whole, double limit)
+{
+  const ParameterBox box = BoxOf(uv);
   SampleDistance samples;
-  if (inscribed)
+  if (whole)
   {
-    samples.Height = samples.Outside = samples.Far = gap;
-    samples.Beyond = gap > 0.0;
+    samples.Height = samples.Outside = samples.Far = t.Gap;
+    for (const Vec3& normal : t.Normal)
+    {
+      samples.AddSlope(facet, normal);
+    }
   }
   else
   {
+    samples.Slope = TooSteep;
     for (const Vec2& p : uv)
     {
       samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
@@ -282,55 +284,68 @@ double FacetBound::Piece(
   }
   const Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
   double error = CombineError(samples, rest, 1);
-  if (error <= limit)
+  if (error <= limit && this->Guaranteed)
   {
     return error;
   }
   for (int k = 2; samples.Largest() <= limit; k *= 2)
   {
-    for (int j = 0; j <= k; ++j)
+    this->Sample(t, facet, uv, k, whole, samples);
+    if (this->Guaranteed)
     {
-      for (int i = 0; i + j <= k; ++i)
+      error = std::min(error, CombineError(samples, rest, k));
+      if (error <= limit || k == Densest || CombineError(samples, rest, Densest) > limit)
       {
-        if ((i | j) % 2 == 0 && (k > 2 || i + j == 0 || i == k || j == k))
-        {
-          continue; // A sample of the last round, or a corner.
-        }
-        const Vec2 p =
-          uv[0] + (uv[1] - uv[0]) * (double(i) / k) + (uv[2] - uv[0]) * (double(j) / k);
-        const int edge = j == 0 ? 0 : i + j == k ? 1 : i == 0 ? 2 : -1;
-        if (!inscribed || edge < 0 || facet.IsBoundary(edge))
-        {
-          samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
-          continue;
-        }
-        Vec3 x;
-        Vec3 normal;
-        this->Evaluator.PointAndNormal(p[0], p[1], x, normal);
-        samples.Add(facet, x);
-        samples.AddEdge(facet, edge, x, normal);
+        return error;
       }
     }
-    if (!this->Guaranteed)
+    else if (k == 4 || !this->Bound.HasGridLineInside(box))
     {
-      if (k == 4 || !this->Bound.HasGridLineInside(box))
-      {
-        return samples.Largest();
-      }
-      continue;
-    }
-    error = std::min(error, CombineError(samples, rest, k));
-    if (error <= limit || k == Densest || CombineError(samples, rest, Densest) > limit)
-    {
-      return error;
+      break;
     }
   }
   return samples.Largest();
 }
 
+// Adds the samples of a grid of k steps along each side that the grid of k / 2 steps does not have.
+void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int k,
+  bool whole, SampleDistance& samples)
+{
+  constexpr int Most = (Densest + 1) * (Densest + 2) / 2;
+  Vec2 at[Most];
+  std::fill_n(at, Most, Vec2(0.0, 0.0));
+  int edge[Most];
+  double points[3 * Most];
+  double normals[3 * Most];
+  int n = 0;
+  for (int j = 0; j <= k; ++j)
+  {
+    for (int i = 0; i + j <= k; ++i)
+    {
+      if ((i | j) % 2 == 0 && (k > 2 || i + j == 0 || i == k || j == k))
+      {
+        continue;
+      }
+      at[n] = uv[0] + (uv[1] - uv[0]) * (double(i) / k) + (uv[2] - uv[0]) * (double(j) / k);
+      edge[n] = !whole ? -1 : j == 0 ? 0 : i + j == k ? 1 : i == 0 ? 2 : -1;
+      ++n;
+    }
+  }
+  this->Evaluator.Batch(at, n, points, normals);
+  for (int i = 0; i < n; ++i)
+  {
+    const Vec3 x = Eigen::Map<const Vec3>(points + 3 * i);
+    samples.Add(facet, x);
+    if (edge[i] >= 0 && !t.Boundary[edge[i]])
+    {
+      samples.AddEdge(facet, edge[i], x, Eigen::Map<const Vec3>(normals + 3 * i));
+    }
+  }
+}
+
 // The two sides of a crease, each for itself.
 double FacetBound::Cut(
-  const Facet& facet, const Vec2 (&uv)[3], double gap, double limit, int dir, double crease)
+  const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], double limit, int dir, double crease)
 {
   // The corner that is alone on its side, and where the crease cuts its two edges.
   int alone = 0;
@@ -352,13 +367,12 @@ double FacetBound::Cut(
   };
   const Vec2 ab = at(b);
   const Vec2 ac = at(c);
-  double error = this->Piece(facet, { a, ab, ac }, false, gap, limit);
+  double error = this->Piece(t, facet, { a, ab, ac }, limit);
   if (error <= limit)
   {
-    error = std::max(error, this->Piece(facet, { ab, b, c }, false, gap, limit));
+    error = std::max(error, this->Piece(t, facet, { ab, b, c }, limit));
   }
-  return error <= limit ? std::max(error, this->Piece(facet, { ab, c, ac }, false, gap, limit))
-                        : error;
+  return error <= limit ? std::max(error, this->Piece(t, facet, { ab, c, ac }, limit)) : error;
 }
 
 } // namespace nurbs

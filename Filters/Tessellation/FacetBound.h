@@ -22,9 +22,6 @@ class Facet
 {
 public:
   Facet(const Vec3& x0, const Vec3& x1, const Vec3& x2);
-  /// Says that edge i (from corner i to i + 1) lies on the face's boundary.
-  void SetBoundary(int i) { this->Boundary[i] = true; }
-  bool IsBoundary(int i) const { return this->Boundary[i]; }
   /// False if it has no plane to speak of.
   bool HasPlane() const { return this->Plane; }
   const Vec3& Normal() const { return this->N; }
@@ -32,7 +29,7 @@ public:
   /// Height of p over the plane, and the distance of its foot from the triangle. Without a plane:
   /// 0 and the distance.
   void Measure(const Vec3& p, double& height, double& outside) const;
-  /// Distance of p's foot from the line of edge i, positive outwards; 0
+  /// Distance of p's foot from the line of edge i (from corner i to i + 1), positive outwards; 0
   /// without a plane.
   double Across(int i, const Vec3& p) const;
 
@@ -44,14 +41,13 @@ private:
   Vec3 N = Vec3::Zero();
   Vec3 T[2] = { Vec3::Zero(), Vec3::Zero() };
   bool Plane = false;
-  bool Boundary[3] = { false, false, false };
 };
 
 /// Largest distances of samples from a facet.
 ///
-/// A sample whose foot is outside the facet, beyond an edge inside the face, has the neighbour's facet
-/// beneath it, which goes on with a slope against this one. In the same way what lies between an edge
-/// and its curve that bows inwards has the surface beyond the curve above it.
+/// A sample whose foot is beyond an edge has the neighbour's facet beneath it, which goes on with a
+/// slope against this one; beyond the face's boundary, the boundary's own error covers it. What lies
+/// between an edge and its curve that bows inwards has the surface beyond the curve above it.
 struct SampleDistance
 {
   double Height = 0.0;
@@ -59,22 +55,24 @@ struct SampleDistance
   double Far = 0.0;  ///< Both together, of one sample.
   double Edge = 0.0; ///< Height and distance inside the edge together, of one sample on its curve.
   double Inside = 0.0; ///< That distance alone.
-  double Slope = 0.0;  ///< Greatest slope of the surface against the facet on interior edges.
-  bool Beyond = false; ///< A foot is beyond an edge of the face's boundary.
+  double Slope = 0.0;  ///< Greatest slope of the surface against the facet at corners and edges.
   void Add(const Facet& facet, const Vec3& p);
   void AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal);
+  void AddSlope(const Facet& facet, const Vec3& normal);
   /// The error that the samples alone tell.
   double Largest() const;
 };
 
-/// Remainders of linear interpolation over a triangle in an a x b box: across a facet, along it, and
-/// in any direction. With samples k times as dense they are k^2 times as small.
+/// Remainders of linear interpolation over a triangle in an a x b box: across a facet and along it.
+/// With samples k times as dense they are k^2 times as small.
 struct Remainder
 {
   double Across = 0.0;
   double Along = 0.0;
-  double Any = 0.0;
-  Remainder(const SecondDerivatives& second, double a, double b, const Facet& facet);
+  /// @param twist bound of the bilinear part of the height if it is known (two halves of a cell);
+  /// negative: S_uv bounds it.
+  Remainder(
+    const SecondDerivatives& second, double a, double b, const Facet& facet, double twist = -1.0);
 };
 
 /// The bound that samples and remainders give together.
@@ -86,21 +84,30 @@ class FacetBound
 public:
   FacetBound(const SurfaceBound& bound, ErrorMode mode);
 
-  /// Bound (or estimate, ErrorMode::Estimated) of the distance between the triangle x and the surface
-  /// over the parameter triangle uv. The work ends as soon as the result is known to be at most
-  /// `limit`, or over it.
-  /// @param gap largest distance of a corner from the surface at its parameters.
-  /// @param boundary edges (i: from corner i to i + 1) on the face's boundary: their curves' distance
-  /// is certified with the boundary.
-  /// @param pole the corner that is a pole whose other parameters have no triangles of their own, so
-  /// that this one stands for the whole region between its base and the pole's side; -1: none.
-  double Error(const Vec3 (&x)[3], const Vec2 (&uv)[3], double gap, const bool (&boundary)[3],
-    int pole, double limit);
+  /// A triangle of the mesh.
+  struct Triangle
+  {
+    Vec3 X[3];
+    Vec2 UV[3];
+    Vec3 Normal[3];   ///< The surface's, of unit length.
+    bool Boundary[3]; ///< Edge i (from corner i to i + 1) lies on the face's boundary.
+    double Gap = 0.0; ///< Largest distance of a corner from the surface at its parameters.
+    /// The corner that is a pole whose other parameters have no triangles of their own, so that this
+    /// one stands for the whole region between its base and the pole's side; -1: none.
+    int Pole = -1;
+  };
+
+  /// Bound (or estimate, ErrorMode::Estimated) of the distance between a triangle and the surface over
+  /// its parameters. The work ends as soon as the result is known to be at most `limit`, or over it.
+  double Error(const Triangle& t, double limit);
 
 private:
-  double Piece(const Facet& facet, const Vec2 (&uv)[3], bool inscribed, double gap, double limit);
-  double Cut(
-    const Facet& facet, const Vec2 (&uv)[3], double gap, double limit, int dir, double crease);
+  double Piece(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], double limit);
+  double Part(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], bool whole, double limit);
+  double Cut(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], double limit, int dir,
+    double crease);
+  void Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int k, bool whole,
+    SampleDistance& samples);
   double EdgeError(const Facet& facet, int edge, const Vec2& a, const Vec2& b);
 
   const SurfaceBound& Bound;
