@@ -99,7 +99,7 @@ double CellError::Sampled(const ParameterBox& box)
 {
   this->MakeCorners(box);
   this->Density = 0;
-  this->SampleGrid(box, 4);
+  this->SampleGrid(box, 2);
   double best = 1e300;
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {

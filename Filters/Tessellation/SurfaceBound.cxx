@@ -71,14 +71,15 @@ void BlossomMatrix(KnotView knots, int p, int k, double a, double b, double* m)
   }
 }
 
-// Subdivisions of a knot span: bounds should follow a curve that turns by a right angle in it.
-int Subdivisions(int degree, std::size_t spans)
+// Subdivisions of a knot span so that all spans together have about `cells`.
+int Subdivisions(int degree, std::size_t spans, std::size_t cells)
 {
   if (degree == 1 || spans > 32)
   {
     return 1;
   }
-  return spans > 8 ? 2 : (degree >= 6 ? 8 : 4);
+  const int least = spans > 8 ? 1 : (degree <= 3 ? 2 : 4);
+  return std::max(least, int((cells + spans - 1) / spans));
 }
 
 struct Interval3
@@ -266,14 +267,18 @@ void SurfaceBound::Cell::Unite(const Cell& other)
   }
 }
 
-SurfaceBound::SurfaceBound(
-  const SurfaceView& surface, const ParameterBox& used, const ParallelFor& parallel)
+SurfaceBound::SurfaceBound(const SurfaceView& surface, const ParameterBox& used)
   : Surface(surface)
   , Prototype(surface)
+  , Used(used)
 {
   this->FitPlane();
-  this->FindCreases(used);
-  this->MakeBreaks(used);
+  this->FindCreases();
+}
+
+void SurfaceBound::MakeGrid(std::size_t cellsU, std::size_t cellsV, const ParallelFor& parallel)
+{
+  this->MakeBreaks({ cellsU, cellsV });
   this->MakeCells(parallel);
   this->MakeLevels();
 }
@@ -306,10 +311,10 @@ void SurfaceBound::FitPlane()
   }
 }
 
-void SurfaceBound::FindCreases(const ParameterBox& used)
+void SurfaceBound::FindCreases()
 {
-  const double low[2] = { used.U0, used.V0 };
-  const double high[2] = { used.U1, used.V1 };
+  const double low[2] = { this->Used.U0, this->Used.V0 };
+  const double high[2] = { this->Used.U1, this->Used.V1 };
   for (int d = 0; d < 2; ++d)
   {
     const double eps = NegligibleSpan * (high[d] - low[d]);
@@ -386,10 +391,10 @@ bool SurfaceBound::IsSmooth(int dir, double knot) const
   return true;
 }
 
-void SurfaceBound::MakeBreaks(const ParameterBox& used)
+void SurfaceBound::MakeBreaks(const std::size_t (&cells)[2])
 {
-  const double low[2] = { used.U0, used.V0 };
-  const double high[2] = { used.U1, used.V1 };
+  const double low[2] = { this->Used.U0, this->Used.V0 };
+  const double high[2] = { this->Used.U1, this->Used.V1 };
   for (int d = 0; d < 2; ++d)
   {
     std::vector<double> knots{ low[d] };
@@ -401,7 +406,7 @@ void SurfaceBound::MakeBreaks(const ParameterBox& used)
       }
     }
     knots.push_back(high[d]);
-    const int n = Subdivisions(this->Surface.Degree[d], knots.size() - 1);
+    const int n = Subdivisions(this->Surface.Degree[d], knots.size() - 1, cells[d]);
     for (std::size_t k = 0; k + 1 < knots.size(); ++k)
     {
       for (int i = 0; i < n; ++i)

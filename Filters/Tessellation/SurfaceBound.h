@@ -56,7 +56,10 @@ class SurfaceBound
 {
 public:
   /// @param used the part of the domain that will be asked for.
-  SurfaceBound(const SurfaceView& surface, const ParameterBox& used, const ParallelFor& parallel);
+  SurfaceBound(const SurfaceView& surface, const ParameterBox& used);
+  /// Makes the grid, with about so many cells in each direction: bounds are tight where the boxes asked
+  /// for are no smaller than those. Until then the surface has no bounds.
+  void MakeGrid(std::size_t cellsU, std::size_t cellsV, const ParallelFor& parallel);
 
   const SurfaceView& View() const { return this->Surface; }
   /// An evaluator to copy: copies share the control net.
@@ -89,15 +92,16 @@ private:
     std::vector<Cell> Cells;
   };
   void FitPlane();
-  void FindCreases(const ParameterBox& used);
+  void FindCreases();
   bool IsSmooth(int dir, double knot) const;
-  void MakeBreaks(const ParameterBox& used);
+  void MakeBreaks(const std::size_t (&cells)[2]);
   void MakeCells(const ParallelFor& parallel);
   void MakeLevels();
   bool Find(int dir, double low, double high, int& first, int& last) const;
 
   SurfaceView Surface;
   SurfaceEvaluator Prototype;
+  ParameterBox Used;
   double Diagonal = 0.0;
   Vec3 Normal = Vec3::Zero();
   double PlaneDistance = 0.0;

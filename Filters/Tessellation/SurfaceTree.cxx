@@ -13,9 +13,10 @@ namespace nurbs
 namespace
 {
 constexpr int FractionBits = 20;
-constexpr double EvenShare = 0.75;  // Mean demand over greatest demand from which on lines fit all.
-constexpr double FailureCost = 3.0; // Cells that a failing one becomes or adds T-vertices to.
-constexpr double BoundSlack = 1.02; // By how much bounds exceed the sampled error, typically.
+constexpr double EvenShare = 0.75; // Mean demand over greatest demand from which on lines fit all.
+constexpr std::size_t LinesOfBound = 1; // To a cell of the grid of bounds.
+constexpr double FailureCost = 3.0;     // Cells that a failing one becomes or adds T-vertices to.
+constexpr double BoundSlack = 1.02;     // By how much bounds exceed the sampled error, typically.
 constexpr LineCode One = LineCode(1) << FractionBits;
 
 } // namespace
@@ -64,32 +65,33 @@ void SurfaceTree::MakeLines(
 double SurfaceTree::BestMargin(
   const SurfaceBound& bound, const TreeGoal& goal, bool bothDirections) const
 {
-  constexpr int Samples = 16;
+  constexpr std::size_t Most = 16;
   CellError cell(bound, goal);
-  double error[Samples];
+  double error[Most];
   const std::size_t nu = this->Line[0].At.size() - 1;
   const std::size_t nv = this->Line[1].At.size() - 1;
-  for (int k = 0; k < Samples; ++k)
+  const int samples = int(std::min(Most, nu * nv));
+  for (int k = 0; k < samples; ++k)
   {
-    const std::size_t i = std::size_t((k + 0.5) / Samples * nu);
-    const std::size_t j = std::size_t((0.5 + (k * 5) % Samples) / Samples * nv);
+    const std::size_t i = std::size_t((k + 0.5) / samples * nu);
+    const std::size_t j = std::size_t((0.5 + (k * 5) % samples) / samples * nv);
     error[k] = cell.Sampled({ this->Line[0].At[i], this->Line[0].At[i + 1], this->Line[1].At[j],
       this->Line[1].At[j + 1] });
   }
-  std::sort(error, error + Samples);
+  std::sort(error, error + samples);
   double best = 1.0;
   double least = 1e300;
-  for (int k = 0; k < Samples; ++k)
+  for (int k = 0; k < samples; ++k)
   {
     const double margin =
       std::min(2.0, std::max(0.8, std::sqrt(BoundSlack * error[k] / goal.Tolerance)));
     int failing = 0;
-    for (double e : error)
+    for (int i = 0; i < samples; ++i)
     {
-      failing += BoundSlack * e > goal.Tolerance * margin * margin * (1.0 + 1e-9);
+      failing += BoundSlack * error[i] > goal.Tolerance * margin * margin * (1.0 + 1e-9);
     }
     const double cells =
-      (bothDirections ? margin * margin : margin) * (1.0 + FailureCost * failing / Samples);
+      (bothDirections ? margin * margin : margin) * (1.0 + FailureCost * failing / samples);
     if (cells < least)
     {
       least = cells;
@@ -274,11 +276,13 @@ struct SurfaceTree::Work
   }
 };
 
-void SurfaceTree::Build(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
+void SurfaceTree::Build(SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
   const ParallelFor& parallel)
 {
   this->Parallel = parallel;
   this->MakeLines(bound, domain, goal);
+  bound.MakeGrid(
+    this->Line[0].At.size() / LinesOfBound, this->Line[1].At.size() / LinesOfBound, parallel);
   this->Nodes.assign(1, Node());
   this->Cells.clear();
   this->Capped = false;

@@ -47,7 +47,8 @@ class SurfaceTree
 {
 public:
   /// Subdivides `domain` (inside the surface's domain). Large surfaces are built in parallel.
-  void Build(const SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
+  /// Makes the grid of `bound`, too.
+  void Build(SurfaceBound& bound, const ParameterBox& domain, const TreeGoal& goal,
     const ParallelFor& parallel);
 
   /// Splits leaves once more; the other leaves keep their index.

@@ -246,7 +246,7 @@ private:
     const double tolerance = this->ToleranceOf(f);
     this->Snaps[f] = this->SnapDistance(face.Geometry, tolerance);
     const ParameterBox used = this->UsedDomain(f);
-    this->Bounds[f].reset(new SurfaceBound(face.Geometry, used, parallel));
+    this->Bounds[f].reset(new SurfaceBound(face.Geometry, used));
     FaceContext& context = this->Contexts[f];
     context.Bound = this->Bounds[f].get();
     context.Tolerance = tolerance;
@@ -255,7 +255,7 @@ private:
       return;
     }
     this->Trees[f].reset(new SurfaceTree);
-    this->Trees[f]->Build(*context.Bound, used, this->GoalOf(f), parallel);
+    this->Trees[f]->Build(*this->Bounds[f], used, this->GoalOf(f), parallel);
     context.Tree = this->Trees[f].get();
   }
 
