@@ -50,16 +50,16 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
     return;
   }
   this->Density = k;
-  double us[Densest + 1];
-  double vs[Densest + 1];
+  double us[DensestSamples + 1];
+  double vs[DensestSamples + 1];
   for (int i = 0; i <= k; ++i)
   {
     us[i] = box.U0 + box.A() * i / k;
     vs[i] = box.V0 + box.B() * i / k;
   }
   const std::size_t n = std::size_t(k) + 1;
-  this->Evaluator.Grid(ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(),
-    this->SampleNormal[0].data());
+  this->Evaluator.Grid(
+    ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(), nullptr);
 }
 
 // The samples in one half of the cell, or (`alone`) all of them, against its facet.
@@ -67,6 +67,10 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
 {
   const int k = this->Density;
   SampleDistance samples;
+  for (int corner : Facets[diagonal][half])
+  {
+    samples.AddSlope(facet, this->Normal[corner]);
+  }
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i <= k; ++i)
@@ -87,7 +91,7 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
                                            : side == 0 && !alone;
         if (on)
         {
-          samples.AddEdge(facet, edge, x, this->SampleNormal[i + std::size_t(j) * (k + 1)]);
+          samples.AddEdge(facet, edge, x);
         }
       }
     }
@@ -169,7 +173,7 @@ double CellError::DenseError(
   const double tolerance = this->Goal.Tolerance;
   const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
   const Remainder rest(this->Second, box.A(), box.B(), facet);
-  for (int k = 2;; k *= 2)
+  for (int k = 2;;)
   {
     this->SampleGrid(box, k);
     const SampleDistance samples = this->Samples(facet, diagonal, half, alone);
@@ -179,11 +183,12 @@ double CellError::DenseError(
       {
         return samples.Largest();
       }
+      k = 4;
       continue;
     }
     const double error = CombineError(samples, rest, k);
-    if (error <= tolerance || samples.Largest() > tolerance || k == Densest ||
-      CombineError(samples, rest, Densest) > tolerance)
+    k = error > tolerance ? NextDensity(samples, rest, k, tolerance) : 0;
+    if (k == 0)
     {
       return error;
     }

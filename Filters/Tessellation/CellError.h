@@ -40,11 +40,9 @@ private:
   const TreeGoal& Goal;
   SurfaceEvaluator Evaluator;
   SecondDerivatives Second;
-  Vec3 At[4];     ///< Corners (0,0), (1,0), (0,1), (1,1),
-  Vec3 Normal[4]; ///< and normals there.
-  static constexpr int Densest = 8;
-  Vec3 Sample[(Densest + 1) * (Densest + 1)];       ///< (Density + 1)^2 points, u fastest,
-  Vec3 SampleNormal[(Densest + 1) * (Densest + 1)]; ///< and normals.
+  Vec3 At[4];                                               ///< Corners (0,0), (1,0), (0,1), (1,1),
+  Vec3 Normal[4];                                           ///< and normals there.
+  Vec3 Sample[(DensestSamples + 1) * (DensestSamples + 1)]; ///< (Density + 1)^2, u fastest.
   int Density = 0;
 };
 

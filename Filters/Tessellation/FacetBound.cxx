@@ -13,7 +13,6 @@ constexpr double SteepestCosine = 0.7; // Of the angle between facet and surface
 constexpr double TooSteep = 1e9;
 constexpr double DihedralSlack = 2.4; // The neighbour's facet may be as steep on its side,
 constexpr double SlopeSlack = 1.2;    // for the slope between samples and a little beyond the edge.
-constexpr int Densest = 8; // Samples along a side: more of them are dearer than smaller triangles.
 
 double SegmentDistance(const Vec3& p, const Vec3& x, const Vec3& edge, double square)
 {
@@ -102,7 +101,7 @@ void SampleDistance::Add(const Facet& facet, const Vec3& p)
   this->Far = std::max(this->Far, std::sqrt(height * height + outside * outside));
 }
 
-void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal)
+void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p)
 {
   double height;
   double outside;
@@ -110,7 +109,6 @@ void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p, const 
   const double inside = std::max(0.0, -facet.Across(edge, p));
   this->Inside = std::max(this->Inside, inside);
   this->Edge = std::max(this->Edge, std::sqrt(height * height + inside * inside));
-  this->AddSlope(facet, normal);
 }
 
 void SampleDistance::AddSlope(const Facet& facet, const Vec3& normal)
@@ -157,6 +155,18 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
     beyond, density == 1 ? std::min(beyond, within) : std::min(samples.Edge + both, within));
 }
 
+int NextDensity(const SampleDistance& samples, const Remainder& rest, int density, double limit)
+{
+  for (int k = 2 * density; k <= DensestSamples; k *= 2)
+  {
+    if (CombineError(samples, rest, k) <= limit)
+    {
+      return k;
+    }
+  }
+  return 0;
+}
+
 FacetBound::FacetBound(const SurfaceBound& bound, ErrorMode mode)
   : Bound(bound)
   , Evaluator(bound.Evaluator())
@@ -195,13 +205,14 @@ double FacetBound::Error(const Triangle& t, double limit)
   }
   for (int i = 0; i < 3 && error <= limit; ++i)
   {
-    error = t.Boundary[i] ? error : std::max(error, this->EdgeError(facet, i, from[i], to[i]));
+    error = t.Boundary[i] ? error : std::max(error, this->EdgeError(t, facet, i, from[i], to[i]));
   }
   return error;
 }
 
 // The edges' part of CombineError, for the curve between two parameter points.
-double FacetBound::EdgeError(const Facet& facet, int edge, const Vec2& a, const Vec2& b)
+double FacetBound::EdgeError(
+  const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b)
 {
   constexpr int Samples = 8;
   std::vector<double> ts;
@@ -213,21 +224,22 @@ double FacetBound::EdgeError(const Facet& facet, int edge, const Vec2& a, const 
   {
     for (double crease : this->Bound.Creases(d))
     {
-      const double t = (crease - a[d]) / (b[d] - a[d]);
-      if (t > 0.0 && t < 1.0)
+      const double s = (crease - a[d]) / (b[d] - a[d]);
+      if (s > 0.0 && s < 1.0)
       {
-        ts.push_back(t);
+        ts.push_back(s);
       }
     }
   }
   SampleDistance samples;
-  for (double t : ts)
+  for (const Vec3& normal : t.Normal)
   {
-    const Vec2 p = a + t * (b - a);
-    Vec3 x;
-    Vec3 normal;
-    this->Evaluator.PointAndNormal(p[0], p[1], x, normal);
-    samples.AddEdge(facet, edge, x, normal);
+    samples.AddSlope(facet, normal);
+  }
+  for (double s : ts)
+  {
+    const Vec2 p = a + s * (b - a);
+    samples.AddEdge(facet, edge, this->Evaluator.Point(p[0], p[1]));
   }
   if (!this->Guaranteed)
   {
@@ -288,41 +300,47 @@ double FacetBound::Part(
   {
     return error;
   }
-  for (int k = 2; samples.Largest() <= limit; k *= 2)
+  for (int last = 1, k = 2; k > 0 && samples.Largest() <= limit;)
   {
-    this->Sample(t, facet, uv, k, whole, samples);
+    this->Sample(t, facet, uv, last, k, whole, samples);
     if (this->Guaranteed)
     {
       error = std::min(error, CombineError(samples, rest, k));
-      if (error <= limit || k == Densest || CombineError(samples, rest, Densest) > limit)
+      if (error <= limit)
       {
         return error;
       }
+      last = k;
+      k = NextDensity(samples, rest, k, limit);
     }
     else if (k == 4 || !this->Bound.HasGridLineInside(box))
     {
       break;
     }
+    else
+    {
+      last = k;
+      k = 4;
+    }
   }
-  return samples.Largest();
+  return this->Guaranteed && samples.Largest() <= limit ? error : samples.Largest();
 }
 
-// Adds the samples of a grid of k steps along each side that the grid of k / 2 steps does not have.
-void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int k,
+// Adds the samples of a grid of k steps along each side that the grid of `last` steps does not have.
+void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int last, int k,
   bool whole, SampleDistance& samples)
 {
-  constexpr int Most = (Densest + 1) * (Densest + 2) / 2;
+  constexpr int Most = (DensestSamples + 1) * (DensestSamples + 2) / 2;
   Vec2 at[Most];
   std::fill_n(at, Most, Vec2(0.0, 0.0));
   int edge[Most];
   double points[3 * Most];
-  double normals[3 * Most];
   int n = 0;
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i + j <= k; ++i)
     {
-      if ((i | j) % 2 == 0 && (k > 2 || i + j == 0 || i == k || j == k))
+      if (i % (k / last) == 0 && j % (k / last) == 0)
       {
         continue;
       }
@@ -331,14 +349,14 @@ void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[
       ++n;
     }
   }
-  this->Evaluator.Batch(at, n, points, normals);
+  this->Evaluator.Batch(at, n, points, nullptr);
   for (int i = 0; i < n; ++i)
   {
     const Vec3 x = Eigen::Map<const Vec3>(points + 3 * i);
     samples.Add(facet, x);
     if (edge[i] >= 0 && !t.Boundary[edge[i]])
     {
-      samples.AddEdge(facet, edge[i], x, Eigen::Map<const Vec3>(normals + 3 * i));
+      samples.AddEdge(facet, edge[i], x);
     }
   }
 }

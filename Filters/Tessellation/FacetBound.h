@@ -55,9 +55,9 @@ struct SampleDistance
   double Far = 0.0;  ///< Both together, of one sample.
   double Edge = 0.0; ///< Height and distance inside the edge together, of one sample on its curve.
   double Inside = 0.0; ///< That distance alone.
-  double Slope = 0.0;  ///< Greatest slope of the surface against the facet at corners and edges.
+  double Slope = 0.0;  ///< Greatest slope of the surface against the facet at its corners.
   void Add(const Facet& facet, const Vec3& p);
-  void AddEdge(const Facet& facet, int edge, const Vec3& p, const Vec3& normal);
+  void AddEdge(const Facet& facet, int edge, const Vec3& p);
   void AddSlope(const Facet& facet, const Vec3& normal);
   /// The error that the samples alone tell.
   double Largest() const;
@@ -77,6 +77,13 @@ struct Remainder
 
 /// The bound that samples and remainders give together.
 double CombineError(const SampleDistance& samples, const Remainder& rest, int density);
+
+/// Steps along a side of the densest grid of samples: more are dearer than smaller triangles.
+inline constexpr int DensestSamples = 8;
+
+/// The number of steps to try after `density` failed: the least that can make the bound meet `limit`;
+/// 0: none can.
+int NextDensity(const SampleDistance& samples, const Remainder& rest, int density, double limit);
 
 /// Bounds the errors of any triangles of one surface. One object per thread.
 class FacetBound
@@ -106,9 +113,9 @@ private:
   double Part(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], bool whole, double limit);
   double Cut(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], double limit, int dir,
     double crease);
-  void Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int k, bool whole,
-    SampleDistance& samples);
-  double EdgeError(const Facet& facet, int edge, const Vec2& a, const Vec2& b);
+  void Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int last, int k,
+    bool whole, SampleDistance& samples);
+  double EdgeError(const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b);
 
   const SurfaceBound& Bound;
   SurfaceEvaluator Evaluator;

@@ -71,17 +71,6 @@ void BlossomMatrix(KnotView knots, int p, int k, double a, double b, double* m)
   }
 }
 
-// Subdivisions of a knot span so that all spans together have about `cells`.
-int Subdivisions(int degree, std::size_t spans, std::size_t cells)
-{
-  if (degree == 1 || spans > 32)
-  {
-    return 1;
-  }
-  const int least = spans > 8 ? 1 : (degree <= 3 ? 2 : 4);
-  return std::max(least, int((cells + spans - 1) / spans));
-}
-
 struct Interval3
 {
   Vec3 Low = Vec3::Constant(1e300);
@@ -276,9 +265,11 @@ SurfaceBound::SurfaceBound(const SurfaceView& surface, const ParameterBox& used)
   this->FindCreases();
 }
 
-void SurfaceBound::MakeGrid(std::size_t cellsU, std::size_t cellsV, const ParallelFor& parallel)
+void SurfaceBound::MakeGrid(
+  const std::vector<double>& linesU, const std::vector<double>& linesV, const ParallelFor& parallel)
 {
-  this->MakeBreaks({ cellsU, cellsV });
+  this->MakeBreaks(0, linesU);
+  this->MakeBreaks(1, linesV);
   this->MakeCells(parallel);
   this->MakeLevels();
 }
@@ -391,31 +382,35 @@ bool SurfaceBound::IsSmooth(int dir, double knot) const
   return true;
 }
 
-void SurfaceBound::MakeBreaks(const std::size_t (&cells)[2])
+void SurfaceBound::MakeBreaks(int dir, const std::vector<double>& lines)
 {
-  const double low[2] = { this->Used.U0, this->Used.V0 };
-  const double high[2] = { this->Used.U1, this->Used.V1 };
-  for (int d = 0; d < 2; ++d)
+  const double low = dir == 0 ? this->Used.U0 : this->Used.V0;
+  const double high = dir == 0 ? this->Used.U1 : this->Used.V1;
+  std::vector<double>& breaks = this->Breaks[dir];
+  breaks.assign(1, low);
+  for (const Knot& knot : DistinctKnots(this->Surface.Knots[dir], this->Surface.Degree[dir]))
   {
-    std::vector<double> knots{ low[d] };
-    for (const Knot& knot : DistinctKnots(this->Surface.Knots[d], this->Surface.Degree[d]))
+    if (knot.Value > low && knot.Value < high)
     {
-      if (knot.Value > low[d] && knot.Value < high[d])
-      {
-        knots.push_back(knot.Value);
-      }
+      breaks.push_back(knot.Value);
     }
-    knots.push_back(high[d]);
-    const int n = Subdivisions(this->Surface.Degree[d], knots.size() - 1, cells[d]);
-    for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        this->Breaks[d].push_back(knots[k] + (knots[k + 1] - knots[k]) * i / n);
-      }
-    }
-    this->Breaks[d].push_back(high[d]);
   }
+  breaks.push_back(high);
+  // A line that is as good as a knot would only make slivers.
+  const double eps = NegligibleSpan * (high - low);
+  std::vector<double> add;
+  for (double line : lines)
+  {
+    const auto next = std::lower_bound(breaks.begin(), breaks.end(), line);
+    if (next != breaks.begin() && next != breaks.end() && *next - line > eps &&
+      line - *(next - 1) > eps)
+    {
+      add.push_back(line);
+    }
+  }
+  const std::size_t middle = breaks.size();
+  breaks.insert(breaks.end(), add.begin(), add.end());
+  std::inplace_merge(breaks.begin(), breaks.begin() + middle, breaks.end());
 }
 
 void SurfaceBound::MakeCells(const ParallelFor& parallel)

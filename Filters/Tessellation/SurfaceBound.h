@@ -57,9 +57,10 @@ class SurfaceBound
 public:
   /// @param used the part of the domain that will be asked for.
   SurfaceBound(const SurfaceView& surface, const ParameterBox& used);
-  /// Makes the grid, with about so many cells in each direction: bounds are tight where the boxes asked
-  /// for are no smaller than those. Until then the surface has no bounds.
-  void MakeGrid(std::size_t cellsU, std::size_t cellsV, const ParallelFor& parallel);
+  /// Makes the grid between the knots and the given lines (ascending): bounds are tightest over boxes
+  /// between two of them. Until then the surface has no bounds.
+  void MakeGrid(const std::vector<double>& linesU, const std::vector<double>& linesV,
+    const ParallelFor& parallel);
 
   const SurfaceView& View() const { return this->Surface; }
   /// An evaluator to copy: copies share the control net.
@@ -94,7 +95,7 @@ private:
   void FitPlane();
   void FindCreases();
   bool IsSmooth(int dir, double knot) const;
-  void MakeBreaks(const std::size_t (&cells)[2]);
+  void MakeBreaks(int dir, const std::vector<double>& lines);
   void MakeCells(const ParallelFor& parallel);
   void MakeLevels();
   bool Find(int dir, double low, double high, int& first, int& last) const;
@@ -106,7 +107,7 @@ private:
   Vec3 Normal = Vec3::Zero();
   double PlaneDistance = 0.0;
   std::vector<double> Crease[2];
-  std::vector<double> Breaks[2]; ///< Lines of the grid: the distinct knots, and some between them.
+  std::vector<double> Breaks[2]; ///< Lines of the grid, the distinct knots among them.
   std::vector<Level> Levels;     ///< The grid, and coarser ones: 2 x 2 cells in one.
 };
 

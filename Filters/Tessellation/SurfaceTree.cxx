@@ -13,10 +13,9 @@ namespace nurbs
 namespace
 {
 constexpr int FractionBits = 20;
-constexpr double EvenShare = 0.75; // Mean demand over greatest demand from which on lines fit all.
-constexpr std::size_t LinesOfBound = 1; // To a cell of the grid of bounds.
-constexpr double FailureCost = 3.0;     // Cells that a failing one becomes or adds T-vertices to.
-constexpr double BoundSlack = 1.02;     // By how much bounds exceed the sampled error, typically.
+constexpr double EvenShare = 0.75;  // Mean demand over greatest demand from which on lines fit all.
+constexpr double FailureCost = 3.0; // Cells that a failing one becomes or adds T-vertices to.
+constexpr double BoundSlack = 1.02; // By how much bounds exceed the sampled error, typically.
 constexpr LineCode One = LineCode(1) << FractionBits;
 
 } // namespace
@@ -281,8 +280,7 @@ void SurfaceTree::Build(SurfaceBound& bound, const ParameterBox& domain, const T
 {
   this->Parallel = parallel;
   this->MakeLines(bound, domain, goal);
-  bound.MakeGrid(
-    this->Line[0].At.size() / LinesOfBound, this->Line[1].At.size() / LinesOfBound, parallel);
+  bound.MakeGrid(this->Line[0].At, this->Line[1].At, parallel);
   this->Nodes.assign(1, Node());
   this->Cells.clear();
   this->Capped = false;
