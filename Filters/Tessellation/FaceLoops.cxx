@@ -58,21 +58,20 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
   for (int k = 0; k < n; ++k)
   {
     const int i = curve.Reversed ? n - 1 - k : k;
-    part[k].UV = Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i]));
+    part[k].UV = this->Clamp(Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i])), false);
     part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
     part[k].Edge = curve.Edge;
     part[k].T0 = ts[i];
     part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
   }
-  this->ClampPart(part);
-  if (!loop.empty() && this->SameSpot(loop.back().UV, part.front().UV))
+  if (!loop.empty() && this->IsSameCorner(loop.back(), part.front()))
   {
+    part.front().UV = this->NearerCorner(loop.back(), part.front());
     loop.pop_back();
   }
   else if (!loop.empty())
   {
-    loop.back().Edge = -1; // A jump along a pole, or a gap that is closed by a straight segment.
-    this->NoteGap(loop.back(), part.front());
+    loop.back().Edge = -1; // A jump along a pole or from side to side of a closed surface.
   }
   loop.insert(loop.end(), part.begin(), part.end());
 }
@@ -106,11 +105,12 @@ void FaceLoops::PoleParameters(
   ts.insert(ts.begin() + 1, inner.begin(), inner.end());
 }
 
-// Puts vertices inside the domain, and those beside a crease on it unless others are as near.
-void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
+// Puts vertices beside a crease on it unless others of the loop are as near.
+void FaceLoops::SnapLoop(std::vector<BoundaryVertex>& loop) const
 {
+  const std::size_t n = loop.size();
   std::vector<Vec2> raw;
-  for (const BoundaryVertex& v : part)
+  for (const BoundaryVertex& v : loop)
   {
     raw.push_back(v.UV);
   }
@@ -118,16 +118,20 @@ void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
     const Vec2 d = (raw[i] - raw[j]).cwiseAbs();
     return d[0] > 4.0 * this->Job.Snap[0] || d[1] > 4.0 * this->Job.Snap[1];
   };
-  for (std::size_t k = 0; k < part.size(); ++k)
+  for (std::size_t k = 0; k < n; ++k)
   {
-    const bool free = (k == 0 || apart(k, k - 1)) && (k + 1 == part.size() || apart(k, k + 1));
-    const Vec2 near = this->Clamp(raw[k], free);
-    const Vec2 own = this->Clamp(raw[k], false);
+    if (!apart(k, (k + n - 1) % n) || !apart(k, (k + 1) % n))
+    {
+      continue;
+    }
+    const Vec2 near = this->Clamp(raw[k], true);
     const SurfaceView& s = this->TheFace.Geometry;
-    const bool same = near == own ||
-      (Evaluate(s, near[0], near[1]) - Evaluate(s, own[0], own[1])).norm() <=
-        0.03 * this->Job.Tolerance;
-    part[k].UV = same ? near : own;
+    if (near != raw[k] &&
+      (Evaluate(s, near[0], near[1]) - Evaluate(s, raw[k][0], raw[k][1])).norm() <=
+        0.03 * this->Job.Tolerance)
+    {
+      loop[k].UV = near;
+    }
   }
 }
 
@@ -158,28 +162,44 @@ Vec2 FaceLoops::Clamp(const Vec2& uv, bool snap) const
   return p;
 }
 
-bool FaceLoops::SameSpot(const Vec2& a, const Vec2& b) const
+// Consecutive curves of a loop meet in a vertex of the model. Where their ends in (u, v) differ a
+// little, as far as the model's gaps, they are still one corner: a side between the two, whose ends
+// are one point in space, could only cross its neighbours.
+bool FaceLoops::IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) const
 {
   const SurfaceView& s = this->TheFace.Geometry;
-  return std::abs(a[0] - b[0]) <= 1e-5 * s.Domain(0).Length() &&
-    std::abs(a[1] - b[1]) <= 1e-5 * s.Domain(1).Length();
+  const double near = a.X == b.X ? 1e-2 : 1e-5;
+  return std::abs(a.UV[0] - b.UV[0]) <= near * s.Domain(0).Length() &&
+    std::abs(a.UV[1] - b.UV[1]) <= near * s.Domain(1).Length();
 }
 
-void FaceLoops::NoteGap(const BoundaryVertex& a, const BoundaryVertex& b)
+// Of the two ends the one whose point of the surface is nearer to the vertex.
+Vec2 FaceLoops::NearerCorner(const BoundaryVertex& a, const BoundaryVertex& b)
 {
-  const double gap = (a.X - b.X).norm();
-  if (gap > this->Job.Tolerance)
+  const SurfaceView& s = this->TheFace.Geometry;
+  if (std::abs(a.UV[0] - b.UV[0]) <= 1e-5 * s.Domain(0).Length() &&
+    std::abs(a.UV[1] - b.UV[1]) <= 1e-5 * s.Domain(1).Length())
   {
-    this->Note(FaceStatus::Repaired, "a loop's gap of " + std::to_string(gap) + " was closed");
+    return b.UV;
   }
+  const Vec3 x = Evaluate(s, a.UV[0], a.UV[1]);
+  const Vec3 y = Evaluate(s, b.UV[0], b.UV[1]);
+  if ((x - y).norm() > this->Job.Tolerance)
+  {
+    this->Note(
+      FaceStatus::Repaired, "a loop's gap of " + std::to_string((x - y).norm()) + " was closed");
+  }
+  return (x - a.X).norm() < (y - b.X).norm() ? a.UV : b.UV;
 }
 
 void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
 {
-  if (loop.size() > 1 && this->SameSpot(loop.back().UV, loop.front().UV))
+  if (loop.size() > 1 && this->IsSameCorner(loop.back(), loop.front()))
   {
+    loop.front().UV = this->NearerCorner(loop.back(), loop.front());
     loop.pop_back();
   }
+  this->SnapLoop(loop);
   std::vector<BoundaryVertex> distinct;
   for (const BoundaryVertex& v : loop)
   {

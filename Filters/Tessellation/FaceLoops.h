@@ -40,10 +40,10 @@ protected:
 private:
   void AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loop);
   void PoleParameters(const TrimCurve& curve, const Interval& domain, std::vector<double>& ts);
-  void ClampPart(std::vector<BoundaryVertex>& part) const;
+  void SnapLoop(std::vector<BoundaryVertex>& loop) const;
   Vec2 Clamp(const Vec2& uv, bool snap) const;
-  bool SameSpot(const Vec2& a, const Vec2& b) const;
-  void NoteGap(const BoundaryVertex& a, const BoundaryVertex& b);
+  bool IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) const;
+  Vec2 NearerCorner(const BoundaryVertex& a, const BoundaryVertex& b);
   void CloseLoop(std::vector<BoundaryVertex>& loop);
   bool IsLoopThin(const std::vector<BoundaryVertex>& loop) const;
   void RequestMiddles(const std::vector<BoundaryVertex>& loop);

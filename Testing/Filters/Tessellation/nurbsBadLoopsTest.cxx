@@ -37,19 +37,21 @@ nurbs::Surface Sheet(bool bent)
   return sheet;
 }
 
-FaceMesh Tessellate(const std::vector<std::vector<Vec2>>& loops, bool bent)
+using Side = std::pair<Vec2, Vec2>;
+
+/// Loops of straight sides, each from its first point to its second one.
+FaceMesh Tessellate(const nurbs::Surface& sheet, const std::vector<std::vector<Side>>& loops)
 {
   nurbs::ModelBuilder builder;
-  const nurbs::Surface sheet = Sheet(bent);
   builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
-  for (const std::vector<Vec2>& loop : loops)
+  for (const std::vector<Side>& loop : loops)
   {
     builder.BeginLoop();
-    for (std::size_t i = 0; i < loop.size(); ++i)
+    for (const Side& side : loop)
     {
       nurbs::Curve<2> line;
       line.Knots = { 0, 0, 1, 1 };
-      line.Points = { loop[i], loop[(i + 1) % loop.size()] };
+      line.Points = { side.first, side.second };
       line.Weights = { 1, 1 };
       line.Pack();
       builder.AddTrimCurve(line.View(), -1, false);
@@ -61,6 +63,26 @@ FaceMesh Tessellate(const std::vector<std::vector<Vec2>>& loops, bool bent)
   const nurbs::TessellationResult result =
     nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options);
   return result.Meshes.at(0);
+}
+
+std::vector<Side> Polygon(const std::vector<Vec2>& corners)
+{
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    sides.emplace_back(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  return sides;
+}
+
+FaceMesh Tessellate(const std::vector<std::vector<Vec2>>& loops, bool bent)
+{
+  std::vector<std::vector<Side>> sides;
+  for (const std::vector<Vec2>& loop : loops)
+  {
+    sides.push_back(Polygon(loop));
+  }
+  return Tessellate(Sheet(bent), sides);
 }
 
 /// The area of the triangles in (u, v); all must be turned the same way.
@@ -133,6 +155,53 @@ TEST_P(BadLoops, SaysThatNothingIsEnclosed)
   const FaceMesh mesh = Tessellate({ { Vec2(1, 1), Vec2(5, 1), Vec2(9, 1) } }, GetParam());
   EXPECT_TRUE(mesh.Triangles.empty());
   EXPECT_FALSE(mesh.Message.empty());
+}
+
+/// Curves of dirty models do not end quite where the next one of the loop starts. The two ends are
+/// one vertex of the model and must be one corner of the mesh: if the curves cross just before, a
+/// repair would leave the vertex out, and a crack to the neighbours.
+TEST_P(BadLoops, JoinsCurvesThatMissEachOther)
+{
+  std::vector<Side> sides = Polygon(Square(1, 1, 8));
+  sides[1].second = Vec2(8.998, 9.01); // Overshoots the third side, which starts at (9, 9).
+  const FaceMesh mesh = Tessellate(Sheet(GetParam()), { sides });
+  EXPECT_NE(mesh.Message.find("gap"), std::string::npos) << mesh.Message;
+  EXPECT_EQ(mesh.Message.find("cross"), std::string::npos) << mesh.Message;
+  EXPECT_NEAR(ParameterArea(mesh), 64.0, 0.1);
+  int corners = 0;
+  for (const Vec2& p : mesh.UV)
+  {
+    corners += (p - Vec2(9, 9)).norm() < 0.02;
+  }
+  EXPECT_EQ(corners, 1);
+}
+
+/// A side that runs beside a crease, nearer than a triangle's width, is put on it together with the
+/// ends of the sides that it meets.
+TEST(BadLoopsOnACrease, SidesBesideItStayJoined)
+{
+  nurbs::Surface roof = Sheet(true);
+  std::swap(roof.Degree[0], roof.Degree[1]); // A bent sheet, creased along u = 5.
+  roof.Count[1] = 3;
+  roof.Knots[0] = { 0, 0, 5, 10, 10 };
+  roof.Knots[1] = { 0, 0, 0, 10, 10, 10 };
+  roof.Points.clear();
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      roof.Points.push_back(Vec3(5.0 * i, 5.0 * j, (i == 1 ? 0.5 : 0.0) + (j == 1 ? 1.0 : 0.0)));
+    }
+  }
+  for (const double beyond : { 1.0, -1.0 })
+  {
+    const Vec2 low(5 + beyond * 1.8e-4, 1);
+    const Vec2 high(5 + beyond * 1.5e-4, 9);
+    const FaceMesh mesh = Tessellate(roof, { Polygon({ Vec2(1, 1), low, high, Vec2(1, 9) }) });
+    EXPECT_EQ(mesh.Status, FaceStatus::Ok) << mesh.Message;
+    EXPECT_LE(mesh.CertifiedError, 0.01);
+    EXPECT_NEAR(ParameterArea(mesh), 32.0, 0.01);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(PlaneAndParabola, BadLoops, testing::Bool(),
