@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceLoops.h"
 
+#include "ChainStitch.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace nurbs
 {
@@ -32,6 +36,7 @@ void FaceLoops::MakeLoops()
       if (this->Job.LastPass)
       {
         this->Note(FaceStatus::Repaired, "a loop without area was dropped");
+        this->Given.push_back(loop);
       }
       continue;
     }
@@ -59,6 +64,7 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
   {
     const int i = curve.Reversed ? n - 1 - k : k;
     part[k].UV = this->Clamp(Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i])), false);
+    part[k].Other = part[k].UV;
     part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
     part[k].Edge = curve.Edge;
     part[k].T0 = ts[i];
@@ -66,7 +72,7 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
   }
   if (!loop.empty() && this->IsSameCorner(loop.back(), part.front()))
   {
-    part.front().UV = this->NearerCorner(loop.back(), part.front());
+    this->JoinCorner(loop.back(), part.front());
     loop.pop_back();
   }
   else if (!loop.empty())
@@ -130,6 +136,7 @@ void FaceLoops::SnapLoop(std::vector<BoundaryVertex>& loop) const
       (Evaluate(s, near[0], near[1]) - Evaluate(s, raw[k][0], raw[k][1])).norm() <=
         0.03 * this->Job.Tolerance)
     {
+      loop[k].Other = raw[k];
       loop[k].UV = near;
     }
   }
@@ -173,30 +180,35 @@ bool FaceLoops::IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) c
     std::abs(a.UV[1] - b.UV[1]) <= near * s.Domain(1).Length();
 }
 
-// Of the two ends the one whose point of the surface is nearer to the vertex.
-Vec2 FaceLoops::NearerCorner(const BoundaryVertex& a, const BoundaryVertex& b)
+// Makes `start` the corner: of the two ends the one whose point of the surface is nearer to it.
+void FaceLoops::JoinCorner(const BoundaryVertex& end, BoundaryVertex& start)
 {
   const SurfaceView& s = this->TheFace.Geometry;
-  if (std::abs(a.UV[0] - b.UV[0]) <= 1e-5 * s.Domain(0).Length() &&
-    std::abs(a.UV[1] - b.UV[1]) <= 1e-5 * s.Domain(1).Length())
+  if (std::abs(end.UV[0] - start.UV[0]) <= 1e-5 * s.Domain(0).Length() &&
+    std::abs(end.UV[1] - start.UV[1]) <= 1e-5 * s.Domain(1).Length())
   {
-    return b.UV;
+    start.Other = end.UV;
+    return;
   }
-  const Vec3 x = Evaluate(s, a.UV[0], a.UV[1]);
-  const Vec3 y = Evaluate(s, b.UV[0], b.UV[1]);
+  const Vec3 x = Evaluate(s, end.UV[0], end.UV[1]);
+  const Vec3 y = Evaluate(s, start.UV[0], start.UV[1]);
   if ((x - y).norm() > this->Job.Tolerance)
   {
     this->Note(
       FaceStatus::Repaired, "a loop's gap of " + std::to_string((x - y).norm()) + " was closed");
   }
-  return (x - a.X).norm() < (y - b.X).norm() ? a.UV : b.UV;
+  start.Other = end.UV;
+  if ((x - end.X).norm() < (y - start.X).norm())
+  {
+    std::swap(start.UV, start.Other);
+  }
 }
 
 void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
 {
   if (loop.size() > 1 && this->IsSameCorner(loop.back(), loop.front()))
   {
-    loop.front().UV = this->NearerCorner(loop.back(), loop.front());
+    this->JoinCorner(loop.back(), loop.front());
     loop.pop_back();
   }
   this->SnapLoop(loop);
@@ -212,13 +224,26 @@ void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
   {
     distinct.pop_back();
   }
+  if (distinct.size() < loop.size())
+  {
+    this->Given.push_back(loop);
+    this->Replaced.push_back(distinct);
+  }
   loop.swap(distinct);
 }
 
-// A loop whose polygon collapsed although its curves enclose something.
+// A loop whose polygon collapsed, in (u, v) or in space, although its curves enclose something.
 bool FaceLoops::IsLoopThin(const std::vector<BoundaryVertex>& loop) const
 {
-  if (loop.size() < 3)
+  std::vector<Vec3> spots;
+  for (std::size_t k = 0; k < loop.size() && spots.size() < 3; ++k)
+  {
+    if (std::find(spots.begin(), spots.end(), loop[k].X) == spots.end())
+    {
+      spots.push_back(loop[k].X);
+    }
+  }
+  if (spots.size() < 3)
   {
     return true;
   }
@@ -283,12 +308,57 @@ Loops2 FaceLoops::FlatLoops() const
   return flat;
 }
 
+// Where sides cross, tries the other place of their ends, should they have one; true if less cross.
+bool FaceLoops::UseOthers(Loops2& flat, CrossingFinder& finder)
+{
+  const std::vector<std::pair<int, int>> crossings = finder.Find(flat);
+  if (crossings.empty() || !this->Job.Tree)
+  {
+    return false;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> at; // Loop and place of each vertex.
+  for (std::size_t l = 0; l < flat.size(); ++l)
+  {
+    for (std::size_t k = 0; k < flat[l].size(); ++k)
+    {
+      at.emplace_back(l, k);
+    }
+  }
+  for (const auto& pair : crossings)
+  {
+    for (const int side : { pair.first, pair.second })
+    {
+      for (const int end : { 0, 1 })
+      {
+        const std::size_t l = at[side].first;
+        const std::size_t k = (at[side].second + end) % flat[l].size();
+        BoundaryVertex& v = this->Loops[l][k];
+        if (v.Other == v.UV)
+        {
+          continue;
+        }
+        flat[l][k] = v.Other;
+        if (finder.Find(flat).size() < crossings.size())
+        {
+          v.UV = v.Other;
+          return true;
+        }
+        flat[l][k] = v.UV;
+      }
+    }
+  }
+  return false;
+}
+
 // Loops that cross: polylines too coarse ask for finer ones; loops that cross as curves, or run the
 // wrong way, are repaired. False: the face can't go on.
 bool FaceLoops::CheckLoops()
 {
-  const Loops2 flat = this->FlatLoops();
+  Loops2 flat = this->FlatLoops();
   CrossingFinder finder;
+  finder.Find(flat);
+  while (this->UseOthers(flat, finder))
+  {}
   const auto& crossings = finder.Find(flat);
   if (!crossings.empty() && !this->Job.LastPass)
   {
@@ -379,11 +449,64 @@ bool FaceLoops::Repair(const Loops2& flat)
     }
   }
   this->Loops.swap(loops);
+  this->Given.insert(this->Given.end(), loops.begin(), loops.end());
+  this->Replaced.insert(this->Replaced.end(), this->Loops.begin(), this->Loops.end());
   if (this->Loops.empty())
   {
     this->Note(FaceStatus::Failed, "its loops enclose no area");
   }
   return !this->Loops.empty();
+}
+
+void FaceLoops::Stitch()
+{
+  if (this->Given.empty())
+  {
+    return;
+  }
+  std::map<std::array<double, 3>, int> numbers;
+  std::vector<const BoundaryVertex*> vertices;
+  std::vector<Vec3> points;
+  const auto chains = [&](const std::vector<Loop>& loops) {
+    Chains out;
+    for (const Loop& loop : loops)
+    {
+      out.emplace_back();
+      for (const BoundaryVertex& v : loop)
+      {
+        const auto at =
+          numbers.emplace(std::array<double, 3>{ v.X[0], v.X[1], v.X[2] }, int(vertices.size()));
+        out.back().push_back(at.first->second);
+        if (at.second)
+        {
+          vertices.push_back(&v);
+          points.push_back(v.X);
+        }
+      }
+    }
+    return out;
+  };
+  const Chains given = chains(this->Given);
+  const Chains made = chains(this->Replaced);
+  const Stitches stitches = StitchChains(given, made, points, this->Job.Tolerance);
+  SurfaceEvaluator evaluator(this->Job.Bound->Evaluator());
+  for (const std::array<int, 3>& t : stitches.Triangles)
+  {
+    for (const int k : t)
+    {
+      Vec3 x;
+      Vec3 normal;
+      evaluator.Batch(&vertices[k]->UV, 1, x.data(), normal.data());
+      this->Mesh.Triangles.push_back(int(this->Mesh.Points.size()));
+      this->Mesh.Points.push_back(points[k]);
+      this->Mesh.Normals.push_back(normal);
+      this->Mesh.UV.push_back(vertices[k]->UV);
+    }
+  }
+  if (!stitches.Triangles.empty())
+  {
+    this->Mesh.CertifiedError += stitches.Error;
+  }
 }
 
 void FaceLoops::Note(FaceStatus status, const std::string& message)

@@ -23,6 +23,9 @@ protected:
   void MakeLoops();
   /// Looks for crossings and wrong orientation; false: the face can't go on (yet).
   bool CheckLoops();
+  /// Once the triangles are there: adds those that lead from the boundary as it was repaired to the
+  /// one that the neighbours have.
+  void Stitch();
   /// The loops where they are triangulated: in the plane of a planar face, in (u, v) otherwise.
   Loops2 FlatLoops() const;
   /// Asks for a vertex in the middle of the segment that starts at v, if its edge can have one.
@@ -43,11 +46,16 @@ private:
   void SnapLoop(std::vector<BoundaryVertex>& loop) const;
   Vec2 Clamp(const Vec2& uv, bool snap) const;
   bool IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) const;
-  Vec2 NearerCorner(const BoundaryVertex& a, const BoundaryVertex& b);
+  void JoinCorner(const BoundaryVertex& end, BoundaryVertex& start);
   void CloseLoop(std::vector<BoundaryVertex>& loop);
+  bool UseOthers(Loops2& flat, CrossingFinder& finder);
   bool IsLoopThin(const std::vector<BoundaryVertex>& loop) const;
   void RequestMiddles(const std::vector<BoundaryVertex>& loop);
   bool Repair(const Loops2& flat);
+
+  using Loop = std::vector<BoundaryVertex>;
+  std::vector<Loop> Given;    ///< Loops that were changed, as the neighbours have them,
+  std::vector<Loop> Replaced; ///< and as they became.
 };
 
 } // namespace nurbs

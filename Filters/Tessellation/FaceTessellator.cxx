@@ -39,6 +39,7 @@ public:
     if (this->Job.Tree ? this->Curved(region) : this->Planar(region))
     {
       this->Certify();
+      this->Stitch();
     }
     return this->Finish();
   }

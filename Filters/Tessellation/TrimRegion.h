@@ -12,6 +12,7 @@ namespace nurbs
 struct BoundaryVertex
 {
   Vec2 UV;
+  Vec2 Other; ///< Another place for it, should UV make sides cross; equal to UV: none.
   Vec3 X;
   std::int64_t Edge = -1;    ///< The edge of the segment that starts here.
   double T0 = 0.0, T1 = 0.0; ///< That segment on the edge (T0 > T1 if reversed).

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace
 {
@@ -174,6 +176,68 @@ TEST_P(BadLoops, JoinsCurvesThatMissEachOther)
     corners += (p - Vec2(9, 9)).norm() < 0.02;
   }
   EXPECT_EQ(corners, 1);
+}
+
+/// Two faces over the same edges, one of which sees its loop cross itself beside a corner (a tiny
+/// edge that leads beyond another one). What the repair takes off must not open a crack.
+TEST_P(BadLoops, StayClosedAlthoughOneFaceIsRepaired)
+{
+  const nurbs::Surface sheet = Sheet(GetParam());
+  const std::vector<Vec2> crossing = { Vec2(1, 1), Vec2(9, 1), Vec2(9, 9), Vec2(9.002, 8.999),
+    Vec2(6, 8.998), Vec2(1, 9) };
+  std::vector<Vec2> sound = crossing;
+  sound[3] = Vec2(8.999, 9);
+  nurbs::ModelBuilder builder;
+  for (const Vec2& p : sound)
+  {
+    builder.AddVertex(nurbs::Evaluate(sheet.View(), p[0], p[1]));
+  }
+  const int n = int(sound.size());
+  for (int i = 0; i < n; ++i)
+  {
+    builder.AddUnknownEdge(0.0, i, (i + 1) % n);
+  }
+  for (const bool reversed : { false, true })
+  {
+    nurbs::FaceAttributes attributes;
+    attributes.Reversed = reversed;
+    builder.BeginFace(sheet.View(), attributes);
+    builder.BeginLoop();
+    const std::vector<Vec2>& corners = reversed ? sound : crossing;
+    for (int i = 0; i < n; ++i)
+    {
+      nurbs::Curve<2> line;
+      line.Knots = { 0, 0, 1, 1 };
+      line.Points = { corners[i], corners[(i + 1) % n] };
+      line.Weights = { 1, 1 };
+      line.Pack();
+      builder.AddTrimCurve(line.View(), i, false);
+    }
+  }
+  const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
+  nurbs::TessellatorOptions options;
+  options.Tolerance = 0.01;
+  const nurbs::TessellationResult result =
+    nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options);
+  EXPECT_NE(result.Meshes[0].Message.find("cross"), std::string::npos);
+  EXPECT_GE(result.Meshes[0].Triangles.size(), 9u);
+  using Spot = std::array<double, 3>;
+  std::map<std::pair<Spot, Spot>, int> sides; // Forward less backward uses.
+  for (const FaceMesh& mesh : result.Meshes)
+  {
+    for (std::size_t k = 0; k < mesh.Triangles.size(); ++k)
+    {
+      const Vec3& x = mesh.Points[mesh.Triangles[k]];
+      const Vec3& y = mesh.Points[mesh.Triangles[k % 3 == 2 ? k - 2 : k + 1]];
+      const Spot a{ x[0], x[1], x[2] };
+      const Spot b{ y[0], y[1], y[2] };
+      sides[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  for (const auto& side : sides)
+  {
+    EXPECT_EQ(side.second, 0) << side.first.first[0] << ' ' << side.first.first[1];
+  }
 }
 
 /// A side that runs beside a crease, nearer than a triangle's width, is put on it together with the
