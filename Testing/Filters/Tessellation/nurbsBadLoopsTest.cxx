@@ -240,6 +240,47 @@ TEST_P(BadLoops, StayClosedAlthoughOneFaceIsRepaired)
   }
 }
 
+/// The corners of a mesh are the model's vertices; how far these are from the ends of the curves is
+/// part of the error, in a plane, too.
+TEST(BadLoopsInAPlane, CountHowFarVerticesAreFromTheirCurves)
+{
+  const nurbs::Surface sheet = Sheet(false);
+  const std::vector<Vec2> square = Square(1, 1, 8);
+  nurbs::ModelBuilder builder;
+  std::vector<std::int64_t> vertices;
+  for (int i = 0; i < 4; ++i)
+  {
+    vertices.push_back(
+      builder.AddVertex(Vec3(square[i][0], square[i][1] + (i == 1 ? 0.004 : 0.0), 0.0)));
+  }
+  builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
+  builder.BeginLoop();
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vec2& from = square[i];
+    const Vec2& to = square[(i + 1) % 4];
+    nurbs::Curve<2> line;
+    line.Knots = { 0, 0, 1, 1 };
+    line.Points = { from, to };
+    line.Weights = { 1, 1 };
+    line.Pack();
+    nurbs::Curve<3> edge;
+    edge.Knots = line.Knots;
+    edge.Points = { Vec3(from[0], from[1], 0.0), Vec3(to[0], to[1], 0.0) };
+    edge.Weights = line.Weights;
+    edge.Pack();
+    const std::int64_t id = builder.AddEdge(edge.View(), 0.0, vertices[i], vertices[(i + 1) % 4]);
+    builder.AddTrimCurve(line.View(), id, false);
+  }
+  const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
+  nurbs::TessellatorOptions options;
+  options.Tolerance = 0.01;
+  const FaceMesh mesh =
+    nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options).Meshes.at(0);
+  EXPECT_GE(mesh.CertifiedError, 0.00399);
+  EXPECT_LE(mesh.CertifiedError, 0.01);
+}
+
 /// A side that runs beside a crease, nearer than a triangle's width, is put on it together with the
 /// ends of the sides that it meets.
 TEST(BadLoopsOnACrease, SidesBesideItStayJoined)
