@@ -87,6 +87,26 @@ FaceMesh Tessellate(const std::vector<std::vector<Vec2>>& loops, bool bent)
   return Tessellate(Sheet(bent), sides);
 }
 
+/// A sheet bent along v with a crease at u = crease.
+nurbs::Surface Roof(double crease)
+{
+  nurbs::Surface roof;
+  roof.Degree[0] = 1;
+  roof.Degree[1] = 2;
+  roof.Count[0] = 3;
+  roof.Count[1] = 3;
+  roof.Knots[0] = { 0, 0, crease, 10, 10 };
+  roof.Knots[1] = { 0, 0, 0, 10, 10, 10 };
+  for (int j = 0; j < 3; ++j)
+  {
+    for (const double u : { 0.0, crease, 10.0 })
+    {
+      roof.Points.push_back(Vec3(u, 5.0 * j, (u == crease ? 0.1 * crease : 0.0) + (j == 1)));
+    }
+  }
+  return roof;
+}
+
 /// The area of the triangles in (u, v); all must be turned the same way.
 double ParameterArea(const FaceMesh& mesh)
 {
@@ -285,27 +305,41 @@ TEST(BadLoopsInAPlane, CountHowFarVerticesAreFromTheirCurves)
 /// ends of the sides that it meets.
 TEST(BadLoopsOnACrease, SidesBesideItStayJoined)
 {
-  nurbs::Surface roof = Sheet(true);
-  std::swap(roof.Degree[0], roof.Degree[1]); // A bent sheet, creased along u = 5.
-  roof.Count[1] = 3;
-  roof.Knots[0] = { 0, 0, 5, 10, 10 };
-  roof.Knots[1] = { 0, 0, 0, 10, 10, 10 };
-  roof.Points.clear();
-  for (int j = 0; j < 3; ++j)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      roof.Points.push_back(Vec3(5.0 * i, 5.0 * j, (i == 1 ? 0.5 : 0.0) + (j == 1 ? 1.0 : 0.0)));
-    }
-  }
   for (const double beyond : { 1.0, -1.0 })
   {
     const Vec2 low(5 + beyond * 1.8e-4, 1);
     const Vec2 high(5 + beyond * 1.5e-4, 9);
-    const FaceMesh mesh = Tessellate(roof, { Polygon({ Vec2(1, 1), low, high, Vec2(1, 9) }) });
+    const FaceMesh mesh = Tessellate(Roof(5), { Polygon({ Vec2(1, 1), low, high, Vec2(1, 9) }) });
     EXPECT_EQ(mesh.Status, FaceStatus::Ok) << mesh.Message;
     EXPECT_LE(mesh.CertifiedError, 0.01);
     EXPECT_NEAR(ParameterArea(mesh), 32.0, 0.01);
+  }
+}
+
+/// A strip between a trim line and a crease that is narrower than chords bow: triangles between
+/// vertices that are not opposite to each other would overlap.
+TEST(BadLoopsOnACrease, StripsBesideItDoNotFold)
+{
+  for (const double width : { 0.0005, 0.002, 0.005, 0.02, 0.1 })
+  {
+    for (const bool beyond : { false, true })
+    {
+      const std::vector<Vec2> corners = beyond
+        ? std::vector<Vec2>{ Vec2(1, 1), Vec2(5 + width, 1), Vec2(5 + width, 9), Vec2(1, 9) }
+        : std::vector<Vec2>{ Vec2(0, 0), Vec2(10, 0), Vec2(10, 10), Vec2(0, 10) };
+      const FaceMesh mesh = Tessellate(Roof(beyond ? 5 : width), { Polygon(corners) });
+      EXPECT_EQ(mesh.Status, FaceStatus::Ok) << mesh.Message;
+      EXPECT_LE(mesh.CertifiedError, 0.01);
+      EXPECT_LT(mesh.Triangles.size() / 3, 150u) << width;
+      for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+      {
+        const int* c = &mesh.Triangles[t];
+        const Vec3 n =
+          (mesh.Points[c[1]] - mesh.Points[c[0]]).cross(mesh.Points[c[2]] - mesh.Points[c[0]]);
+        EXPECT_GE(n.dot(mesh.Normals[c[0]] + mesh.Normals[c[1]] + mesh.Normals[c[2]]), 0.0)
+          << width;
+      }
+    }
   }
 }
 
