@@ -11,6 +11,11 @@
 namespace nurbs
 {
 
+namespace
+{
+constexpr double LargeGap = 1.0; // Of trim curves from their edge, in tolerances.
+} // namespace
+
 FaceLoops::FaceLoops(const FaceJob& job, std::vector<SplitRequest>& requests)
   : Job(job)
   , Data(*job.Data)
@@ -70,6 +75,10 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
     part[k].T0 = ts[i];
     part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
   }
+  if (edge.Gap > LargeGap * this->Job.Tolerance && this->Job.Tree && !this->OnCurves)
+  {
+    this->MoveToFeet(part);
+  }
   if (!loop.empty() && this->IsSameCorner(loop.back(), part.front()))
   {
     this->JoinCorner(loop.back(), part.front());
@@ -80,6 +89,64 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
     loop.back().Edge = -1; // A jump along a pole or from side to side of a closed surface.
   }
   loop.insert(loop.end(), part.begin(), part.end());
+}
+
+// Where a face's trim curve misses the edge by as much as the tolerance, vertices are moved in (u, v)
+// to where they are on the surface: else they would be out of order with those inside the face.
+void FaceLoops::MoveToFeet(std::vector<BoundaryVertex>& part)
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  for (BoundaryVertex& v : part)
+  {
+    const double apart = (Evaluate(s, v.UV[0], v.UV[1]) - v.X).norm();
+    if (apart <= LargeGap * this->Job.Tolerance)
+    {
+      continue;
+    }
+    Vec2 foot = this->Clamp(this->Foot(v.UV, v.X), false);
+    for (int d = 0; d < 2; ++d)
+    {
+      const std::vector<double>& creases = this->Job.Tree->Creases(d);
+      const bool on = std::find(creases.begin(), creases.end(), v.UV[d]) != creases.end();
+      foot[d] = on ? v.UV[d] : foot[d]; // The edge has its vertex there for the crease's sake.
+    }
+    if ((Evaluate(s, foot[0], foot[1]) - v.X).norm() < 0.5 * apart)
+    {
+      v.Other = v.UV;
+      v.UV = foot;
+      this->CurveGap = std::max(this->CurveGap, apart);
+    }
+  }
+}
+
+// The point of the surface next to x, from uv on: Gauss-Newton, inside the domain.
+Vec2 FaceLoops::Foot(const Vec2& uv, const Vec3& x) const
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  Vec2 p = uv;
+  for (int step = 0; step < 8; ++step)
+  {
+    const SurfaceDerivatives d = EvaluateDerivatives(s, p[0], p[1], 1);
+    const Vec3 r = x - d.S;
+    const double a = d.Su.squaredNorm();
+    const double b = d.Su.dot(d.Sv);
+    const double c = d.Sv.squaredNorm();
+    const double det = a * c - b * b;
+    if (!(det > 1e-6 * a * c))
+    {
+      break;
+    }
+    const double ru = d.Su.dot(r);
+    const double rv = d.Sv.dot(r);
+    const Vec2 next(s.Domain(0).Clamp(p[0] + (c * ru - b * rv) / det),
+      s.Domain(1).Clamp(p[1] + (a * rv - b * ru) / det));
+    if ((next - p).cwiseAbs().maxCoeff() == 0.0)
+    {
+      break;
+    }
+    p = next;
+  }
+  return p;
 }
 
 // A degenerate side has one point, but as many parameters as the cells there have corners.
@@ -359,6 +426,24 @@ bool FaceLoops::CheckLoops()
   finder.Find(flat);
   while (this->UseOthers(flat, finder))
   {}
+  if (this->CurveGap > 0.0 && !finder.Find(flat).empty())
+  {
+    // Vertices that were moved off their curves make sides cross, perhaps.
+    this->OnCurves = true;
+    this->CurveGap = 0.0;
+    this->Mesh = FaceMesh();
+    this->Loops.clear();
+    this->Given.clear();
+    this->Replaced.clear();
+    this->MakeLoops();
+    if (this->Loops.empty() || !this->Requests.empty())
+    {
+      return false;
+    }
+    flat = this->FlatLoops();
+    while (this->UseOthers(flat, finder))
+    {}
+  }
   const auto& crossings = finder.Find(flat);
   if (!crossings.empty() && !this->Job.LastPass)
   {
@@ -460,6 +545,18 @@ bool FaceLoops::Repair(const Loops2& flat)
 
 void FaceLoops::Stitch()
 {
+  if (this->CurveGap > 0.0)
+  {
+    double error = 0.0;
+    for (const Loop& loop : this->Loops)
+    {
+      for (const BoundaryVertex& v : loop)
+      {
+        error = std::max(error, v.Edge < 0 ? 0.0 : (*this->Job.Edges)[v.Edge].Error);
+      }
+    }
+    this->Mesh.CertifiedError = std::max(this->Mesh.CertifiedError, error + this->CurveGap);
+  }
   if (this->Given.empty())
   {
     return;

@@ -45,6 +45,8 @@ private:
   void PoleParameters(const TrimCurve& curve, const Interval& domain, std::vector<double>& ts);
   void SnapLoop(std::vector<BoundaryVertex>& loop) const;
   Vec2 Clamp(const Vec2& uv, bool snap) const;
+  void MoveToFeet(std::vector<BoundaryVertex>& part);
+  Vec2 Foot(const Vec2& uv, const Vec3& x) const;
   bool IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) const;
   void JoinCorner(const BoundaryVertex& end, BoundaryVertex& start);
   void CloseLoop(std::vector<BoundaryVertex>& loop);
@@ -54,6 +56,9 @@ private:
   bool Repair(const Loops2& flat);
 
   using Loop = std::vector<BoundaryVertex>;
+  bool OnCurves = false; ///< Vertices stay on the trim curves.
+  double CurveGap =
+    0.0; ///< Largest distance of trim curves from vertices that were moved off them.
   std::vector<Loop> Given;    ///< Loops that were changed, as the neighbours have them,
   std::vector<Loop> Replaced; ///< and as they became.
 };

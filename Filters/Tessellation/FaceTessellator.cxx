@@ -289,7 +289,8 @@ private:
     {
       for (double v : this->Job.Tree->Creases(1))
       {
-        add(Vec2(u, v), this->IsInWholeCell(Vec2(u, v)));
+        const Vec2 p(u, v);
+        add(p, this->IsInWholeCell(p) || region.IsOnLine(0, p) || region.IsOnLine(1, p));
       }
     }
     for (int d = 0; d < 2; ++d)
@@ -298,7 +299,7 @@ private:
       {
         for (const Vec2& rung : this->Rungs(d, crease, region))
         {
-          add(rung, this->TouchesWholeCell(rung));
+          add(rung, this->TouchesWholeCell(rung) || region.IsOnLine(d, rung));
         }
       }
     }

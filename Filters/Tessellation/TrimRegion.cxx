@@ -106,6 +106,21 @@ bool TrimRegion::Crosses(int dir, double value, double from, double to) const
   return false;
 }
 
+bool TrimRegion::IsOnLine(int dir, const Vec2& p) const
+{
+  for (const auto& side : this->Sides)
+  {
+    const Vec2& a = this->Corners[side.first];
+    const Vec2& b = this->Corners[side.second];
+    if (a[dir] == p[dir] && b[dir] == p[dir] &&
+      (a[1 - dir] <= p[1 - dir]) != (b[1 - dir] < p[1 - dir]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::vector<std::pair<int, int>> TrimRegion::CutLeaves(const SurfaceTree& tree, double margin) const
 {
   std::vector<std::pair<int, int>> cut;

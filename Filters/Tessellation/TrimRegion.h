@@ -34,6 +34,9 @@ public:
   /// strictly between `from` and `to`.
   bool Crosses(int dir, double value, double from, double to) const;
 
+  /// True if p is on a segment that runs along u or v (`dir`: the direction that is constant).
+  bool IsOnLine(int dir, const Vec2& p) const;
+
   /// Segments as pairs of indices into Points().
   const std::vector<std::pair<int, int>>& Segments() const { return this->Sides; }
   const std::vector<Vec2>& Points() const { return this->Corners; }

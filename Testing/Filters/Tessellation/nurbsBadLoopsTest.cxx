@@ -301,6 +301,62 @@ TEST(BadLoopsInAPlane, CountHowFarVerticesAreFromTheirCurves)
   EXPECT_LE(mesh.CertifiedError, 0.01);
 }
 
+/// Trim curves that miss their edges by tolerances: the mesh's boundary is the edges, and vertices
+/// inside the face must not lie beyond it.
+TEST(BadLoopsWithGaps, DoNotFold)
+{
+  const nurbs::Surface sheet = Sheet(true);
+  nurbs::ModelBuilder builder;
+  builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
+  builder.BeginLoop();
+  const std::vector<Vec2> square = Square(1, 1, 8);
+  for (int i = 0; i < 4; ++i)
+  {
+    // The curve bulges by 0.2 = 20 tolerances over the edge, which is straight in (u, v).
+    const Vec2& from = square[i];
+    const Vec2& to = square[(i + 1) % 4];
+    const Vec2 along = to - from;
+    nurbs::Curve<2> curve;
+    curve.Degree = 2;
+    curve.Knots = { 0, 0, 0, 1, 1, 1 };
+    curve.Points = { from, 0.5 * (from + to) + 0.05 * Vec2(along[1], -along[0]), to };
+    curve.Weights = { 1, 1, 1 };
+    curve.Pack();
+    nurbs::Curve<3> edge; // Over a straight line the sheet is a parabola.
+    edge.Degree = 2;
+    edge.Knots = curve.Knots;
+    const auto at = [&](double t) {
+      const Vec2 p = from + t * along;
+      return nurbs::Evaluate(sheet.View(), p[0], p[1]);
+    };
+    edge.Points = { at(0), Vec3(2.0 * at(0.5) - 0.5 * at(0) - 0.5 * at(1)), at(1) };
+    edge.Weights = curve.Weights;
+    edge.Pack();
+    const std::int64_t id = builder.AddEdge(edge.View(), 0.25, -1, -1);
+    builder.AddTrimCurve(curve.View(), id, false);
+  }
+  // A neighbour, without which the trim curves alone would count.
+  builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
+  builder.BeginLoop();
+  for (int i = 0; i < 4; ++i)
+  {
+    nurbs::Curve<2> line;
+    line.Knots = { 0, 0, 1, 1 };
+    line.Points = { square[i], square[(i + 1) % 4] };
+    line.Weights = { 1, 1 };
+    line.Pack();
+    builder.AddTrimCurve(line.View(), i, false);
+  }
+  const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
+  nurbs::TessellatorOptions options;
+  options.Tolerance = 0.01;
+  const FaceMesh mesh =
+    nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options).Meshes.at(0);
+  EXPECT_GE(mesh.CertifiedError, 0.19);
+  EXPECT_LE(mesh.ModelGap, 0.01);
+  EXPECT_NEAR(ParameterArea(mesh), 64.0, 0.01);
+}
+
 /// A side that runs beside a crease, nearer than a triangle's width, is put on it together with the
 /// ends of the sides that it meets.
 TEST(BadLoopsOnACrease, SidesBesideItStayJoined)
