@@ -605,6 +605,9 @@ private:
     this->Out.Points.resize(ts.size());
     this->Out.Points.front() = this->Data.Vertices[edge.Vertex[0]];
     this->Out.Points.back() = this->Data.Vertices[edge.Vertex[1]];
+    // The first and last chord end in the model's vertices, a little beside the curve.
+    this->Out.Error += std::max((this->At(ts.front()) - this->Out.Points.front()).norm(),
+      (this->At(ts.back()) - this->Out.Points.back()).norm());
     for (std::size_t k = 1; k + 1 < ts.size(); ++k)
     {
       this->Out.Points[k] = this->At(ts[k]);

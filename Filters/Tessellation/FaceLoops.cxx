@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceLoops.h"
 
+#include "ChainStitch.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace nurbs
 {
+
+namespace
+{
+constexpr double LargeGap = 1.0; // Of trim curves from their edge, in tolerances.
+} // namespace
 
 FaceLoops::FaceLoops(const FaceJob& job, std::vector<SplitRequest>& requests)
   : Job(job)
@@ -32,6 +41,7 @@ void FaceLoops::MakeLoops()
       if (this->Job.LastPass)
       {
         this->Note(FaceStatus::Repaired, "a loop without area was dropped");
+        this->Given.push_back(loop);
       }
       continue;
     }
@@ -58,23 +68,85 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
   for (int k = 0; k < n; ++k)
   {
     const int i = curve.Reversed ? n - 1 - k : k;
-    part[k].UV = Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i]));
+    part[k].UV = this->Clamp(Evaluate(curve.Geometry, TrimParameter(curve, domain, ts[i])), false);
+    part[k].Other = part[k].UV;
     part[k].X = edge.Degenerate ? edge.Points[0] : edge.Points[i];
     part[k].Edge = curve.Edge;
     part[k].T0 = ts[i];
     part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
   }
-  this->ClampPart(part);
-  if (!loop.empty() && this->SameSpot(loop.back().UV, part.front().UV))
+  if (edge.Gap > LargeGap * this->Job.Tolerance && this->Job.Tree && !this->OnCurves)
   {
+    this->MoveToFeet(part);
+  }
+  if (!loop.empty() && this->IsSameCorner(loop.back(), part.front()))
+  {
+    this->JoinCorner(loop.back(), part.front());
     loop.pop_back();
   }
   else if (!loop.empty())
   {
-    loop.back().Edge = -1; // A jump along a pole, or a gap that is closed by a straight segment.
-    this->NoteGap(loop.back(), part.front());
+    loop.back().Edge = -1; // A jump along a pole or from side to side of a closed surface.
   }
   loop.insert(loop.end(), part.begin(), part.end());
+}
+
+// Where a face's trim curve misses the edge by as much as the tolerance, vertices are moved in (u, v)
+// to where they are on the surface: else they would be out of order with those inside the face.
+void FaceLoops::MoveToFeet(std::vector<BoundaryVertex>& part)
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  for (BoundaryVertex& v : part)
+  {
+    const double apart = (Evaluate(s, v.UV[0], v.UV[1]) - v.X).norm();
+    if (apart <= LargeGap * this->Job.Tolerance)
+    {
+      continue;
+    }
+    Vec2 foot = this->Clamp(this->Foot(v.UV, v.X), false);
+    for (int d = 0; d < 2; ++d)
+    {
+      const std::vector<double>& creases = this->Job.Tree->Creases(d);
+      const bool on = std::find(creases.begin(), creases.end(), v.UV[d]) != creases.end();
+      foot[d] = on ? v.UV[d] : foot[d]; // The edge has its vertex there for the crease's sake.
+    }
+    if ((Evaluate(s, foot[0], foot[1]) - v.X).norm() < 0.5 * apart)
+    {
+      v.Other = v.UV;
+      v.UV = foot;
+      this->CurveGap = std::max(this->CurveGap, apart);
+    }
+  }
+}
+
+// The point of the surface next to x, from uv on: Gauss-Newton, inside the domain.
+Vec2 FaceLoops::Foot(const Vec2& uv, const Vec3& x) const
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  Vec2 p = uv;
+  for (int step = 0; step < 8; ++step)
+  {
+    const SurfaceDerivatives d = EvaluateDerivatives(s, p[0], p[1], 1);
+    const Vec3 r = x - d.S;
+    const double a = d.Su.squaredNorm();
+    const double b = d.Su.dot(d.Sv);
+    const double c = d.Sv.squaredNorm();
+    const double det = a * c - b * b;
+    if (!(det > 1e-6 * a * c))
+    {
+      break;
+    }
+    const double ru = d.Su.dot(r);
+    const double rv = d.Sv.dot(r);
+    const Vec2 next(s.Domain(0).Clamp(p[0] + (c * ru - b * rv) / det),
+      s.Domain(1).Clamp(p[1] + (a * rv - b * ru) / det));
+    if ((next - p).cwiseAbs().maxCoeff() == 0.0)
+    {
+      break;
+    }
+    p = next;
+  }
+  return p;
 }
 
 // A degenerate side has one point, but as many parameters as the cells there have corners.
@@ -106,11 +178,12 @@ void FaceLoops::PoleParameters(
   ts.insert(ts.begin() + 1, inner.begin(), inner.end());
 }
 
-// Puts vertices inside the domain, and those beside a crease on it unless others are as near.
-void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
+// Puts vertices beside a crease on it unless others of the loop are as near.
+void FaceLoops::SnapLoop(std::vector<BoundaryVertex>& loop) const
 {
+  const std::size_t n = loop.size();
   std::vector<Vec2> raw;
-  for (const BoundaryVertex& v : part)
+  for (const BoundaryVertex& v : loop)
   {
     raw.push_back(v.UV);
   }
@@ -118,16 +191,21 @@ void FaceLoops::ClampPart(std::vector<BoundaryVertex>& part) const
     const Vec2 d = (raw[i] - raw[j]).cwiseAbs();
     return d[0] > 4.0 * this->Job.Snap[0] || d[1] > 4.0 * this->Job.Snap[1];
   };
-  for (std::size_t k = 0; k < part.size(); ++k)
+  for (std::size_t k = 0; k < n; ++k)
   {
-    const bool free = (k == 0 || apart(k, k - 1)) && (k + 1 == part.size() || apart(k, k + 1));
-    const Vec2 near = this->Clamp(raw[k], free);
-    const Vec2 own = this->Clamp(raw[k], false);
+    if (!apart(k, (k + n - 1) % n) || !apart(k, (k + 1) % n))
+    {
+      continue;
+    }
+    const Vec2 near = this->Clamp(raw[k], true);
     const SurfaceView& s = this->TheFace.Geometry;
-    const bool same = near == own ||
-      (Evaluate(s, near[0], near[1]) - Evaluate(s, own[0], own[1])).norm() <=
-        0.03 * this->Job.Tolerance;
-    part[k].UV = same ? near : own;
+    if (near != raw[k] &&
+      (Evaluate(s, near[0], near[1]) - Evaluate(s, raw[k][0], raw[k][1])).norm() <=
+        0.03 * this->Job.Tolerance)
+    {
+      loop[k].Other = raw[k];
+      loop[k].UV = near;
+    }
   }
 }
 
@@ -158,28 +236,49 @@ Vec2 FaceLoops::Clamp(const Vec2& uv, bool snap) const
   return p;
 }
 
-bool FaceLoops::SameSpot(const Vec2& a, const Vec2& b) const
+// Consecutive curves of a loop meet in a vertex of the model. Where their ends in (u, v) differ a
+// little, as far as the model's gaps, they are still one corner: a side between the two, whose ends
+// are one point in space, could only cross its neighbours.
+bool FaceLoops::IsSameCorner(const BoundaryVertex& a, const BoundaryVertex& b) const
 {
   const SurfaceView& s = this->TheFace.Geometry;
-  return std::abs(a[0] - b[0]) <= 1e-5 * s.Domain(0).Length() &&
-    std::abs(a[1] - b[1]) <= 1e-5 * s.Domain(1).Length();
+  const double near = a.X == b.X ? 1e-2 : 1e-5;
+  return std::abs(a.UV[0] - b.UV[0]) <= near * s.Domain(0).Length() &&
+    std::abs(a.UV[1] - b.UV[1]) <= near * s.Domain(1).Length();
 }
 
-void FaceLoops::NoteGap(const BoundaryVertex& a, const BoundaryVertex& b)
+// Makes `start` the corner: of the two ends the one whose point of the surface is nearer to it.
+void FaceLoops::JoinCorner(const BoundaryVertex& end, BoundaryVertex& start)
 {
-  const double gap = (a.X - b.X).norm();
-  if (gap > this->Job.Tolerance)
+  const SurfaceView& s = this->TheFace.Geometry;
+  if (std::abs(end.UV[0] - start.UV[0]) <= 1e-5 * s.Domain(0).Length() &&
+    std::abs(end.UV[1] - start.UV[1]) <= 1e-5 * s.Domain(1).Length())
   {
-    this->Note(FaceStatus::Repaired, "a loop's gap of " + std::to_string(gap) + " was closed");
+    start.Other = end.UV;
+    return;
+  }
+  const Vec3 x = Evaluate(s, end.UV[0], end.UV[1]);
+  const Vec3 y = Evaluate(s, start.UV[0], start.UV[1]);
+  if ((x - y).norm() > this->Job.Tolerance)
+  {
+    this->Note(
+      FaceStatus::Repaired, "a loop's gap of " + std::to_string((x - y).norm()) + " was closed");
+  }
+  start.Other = end.UV;
+  if ((x - end.X).norm() < (y - start.X).norm())
+  {
+    std::swap(start.UV, start.Other);
   }
 }
 
 void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
 {
-  if (loop.size() > 1 && this->SameSpot(loop.back().UV, loop.front().UV))
+  if (loop.size() > 1 && this->IsSameCorner(loop.back(), loop.front()))
   {
+    this->JoinCorner(loop.back(), loop.front());
     loop.pop_back();
   }
+  this->SnapLoop(loop);
   std::vector<BoundaryVertex> distinct;
   for (const BoundaryVertex& v : loop)
   {
@@ -192,13 +291,26 @@ void FaceLoops::CloseLoop(std::vector<BoundaryVertex>& loop)
   {
     distinct.pop_back();
   }
+  if (distinct.size() < loop.size())
+  {
+    this->Given.push_back(loop);
+    this->Replaced.push_back(distinct);
+  }
   loop.swap(distinct);
 }
 
-// A loop whose polygon collapsed although its curves enclose something.
+// A loop whose polygon collapsed, in (u, v) or in space, although its curves enclose something.
 bool FaceLoops::IsLoopThin(const std::vector<BoundaryVertex>& loop) const
 {
-  if (loop.size() < 3)
+  std::vector<Vec3> spots;
+  for (std::size_t k = 0; k < loop.size() && spots.size() < 3; ++k)
+  {
+    if (std::find(spots.begin(), spots.end(), loop[k].X) == spots.end())
+    {
+      spots.push_back(loop[k].X);
+    }
+  }
+  if (spots.size() < 3)
   {
     return true;
   }
@@ -258,12 +370,75 @@ Loops2 FaceLoops::FlatLoops() const
   return flat;
 }
 
+// Where sides cross, tries the other place of their ends, should they have one; true if less cross.
+bool FaceLoops::UseOthers(Loops2& flat, CrossingFinder& finder)
+{
+  const std::vector<std::pair<int, int>> crossings = finder.Find(flat);
+  if (crossings.empty() || !this->Job.Tree)
+  {
+    return false;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> at; // Loop and place of each vertex.
+  for (std::size_t l = 0; l < flat.size(); ++l)
+  {
+    for (std::size_t k = 0; k < flat[l].size(); ++k)
+    {
+      at.emplace_back(l, k);
+    }
+  }
+  for (const auto& pair : crossings)
+  {
+    for (const int side : { pair.first, pair.second })
+    {
+      for (const int end : { 0, 1 })
+      {
+        const std::size_t l = at[side].first;
+        const std::size_t k = (at[side].second + end) % flat[l].size();
+        BoundaryVertex& v = this->Loops[l][k];
+        if (v.Other == v.UV)
+        {
+          continue;
+        }
+        flat[l][k] = v.Other;
+        if (finder.Find(flat).size() < crossings.size())
+        {
+          v.UV = v.Other;
+          return true;
+        }
+        flat[l][k] = v.UV;
+      }
+    }
+  }
+  return false;
+}
+
 // Loops that cross: polylines too coarse ask for finer ones; loops that cross as curves, or run the
 // wrong way, are repaired. False: the face can't go on.
 bool FaceLoops::CheckLoops()
 {
-  const Loops2 flat = this->FlatLoops();
+  Loops2 flat = this->FlatLoops();
   CrossingFinder finder;
+  finder.Find(flat);
+  while (this->UseOthers(flat, finder))
+  {}
+  if (this->CurveGap > 0.0 && !finder.Find(flat).empty())
+  {
+    // Vertices that were moved off their curves make sides cross, perhaps.
+    this->OnCurves = true;
+    this->CurveGap = 0.0;
+    this->Mesh = FaceMesh();
+    this->Loops.clear();
+    this->Given.clear();
+    this->Replaced.clear();
+    this->MakeLoops();
+    if (this->Loops.empty() || !this->Requests.empty())
+    {
+      return false;
+    }
+    flat = this->FlatLoops();
+    while (this->UseOthers(flat, finder))
+    {}
+  }
   const auto& crossings = finder.Find(flat);
   if (!crossings.empty() && !this->Job.LastPass)
   {
@@ -354,11 +529,76 @@ bool FaceLoops::Repair(const Loops2& flat)
     }
   }
   this->Loops.swap(loops);
+  this->Given.insert(this->Given.end(), loops.begin(), loops.end());
+  this->Replaced.insert(this->Replaced.end(), this->Loops.begin(), this->Loops.end());
   if (this->Loops.empty())
   {
     this->Note(FaceStatus::Failed, "its loops enclose no area");
   }
   return !this->Loops.empty();
+}
+
+void FaceLoops::Stitch()
+{
+  if (this->CurveGap > 0.0)
+  {
+    double error = 0.0;
+    for (const Loop& loop : this->Loops)
+    {
+      for (const BoundaryVertex& v : loop)
+      {
+        error = std::max(error, v.Edge < 0 ? 0.0 : (*this->Job.Edges)[v.Edge].Error);
+      }
+    }
+    this->Mesh.CertifiedError = std::max(this->Mesh.CertifiedError, error + this->CurveGap);
+  }
+  if (this->Given.empty())
+  {
+    return;
+  }
+  std::map<std::array<double, 3>, int> numbers;
+  std::vector<const BoundaryVertex*> vertices;
+  std::vector<Vec3> points;
+  const auto chains = [&](const std::vector<Loop>& loops) {
+    Chains out;
+    for (const Loop& loop : loops)
+    {
+      out.emplace_back();
+      for (const BoundaryVertex& v : loop)
+      {
+        const auto at =
+          numbers.emplace(std::array<double, 3>{ v.X[0], v.X[1], v.X[2] }, int(vertices.size()));
+        out.back().push_back(at.first->second);
+        if (at.second)
+        {
+          vertices.push_back(&v);
+          points.push_back(v.X);
+        }
+      }
+    }
+    return out;
+  };
+  const Chains given = chains(this->Given);
+  const Chains made = chains(this->Replaced);
+  const Stitches stitches = StitchChains(given, made, points, this->Job.Tolerance);
+  SurfaceEvaluator evaluator(this->Job.Bound->Evaluator());
+  for (const std::array<int, 3>& t : stitches.Triangles)
+  {
+    for (const int k : t)
+    {
+      Vec3 x;
+      Vec3 normal;
+      evaluator.Batch(&vertices[k]->UV, 1, x.data(), normal.data());
+      this->Mesh.Triangles.push_back(int(this->Mesh.Points.size()));
+      this->Mesh.Points.push_back(points[k]);
+      this->Mesh.Normals.push_back(normal);
+      this->Mesh.UV.push_back(vertices[k]->UV);
+    }
+  }
+  if (!stitches.Triangles.empty())
+  {
+    this->Mesh.CertifiedError += stitches.Error;
+  }
 }
 
 void FaceLoops::Note(FaceStatus status, const std::string& message)

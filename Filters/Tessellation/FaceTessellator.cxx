@@ -15,6 +15,7 @@ namespace nurbs
 
 namespace
 {
+constexpr double NearTolerance = 40.0; // In units of FaceJob::Snap: 0.8 tolerances.
 constexpr double CutMargin = 0.08; // Leaves this near to a trim line (in their size) count as cut.
 
 class FaceBuilder : public FaceErrors
@@ -36,11 +37,12 @@ public:
     {
       return this->Finish();
     }
-    TrimRegion region(this->Loops);
+    TrimRegion region(this->Loops, NearTolerance * this->Job.Snap);
     this->AddBoundary();
     if (this->Job.Tree ? this->Curved(region) : this->Planar(region))
     {
       this->Certify();
+      this->Stitch();
     }
     return this->Finish();
   }
@@ -118,7 +120,7 @@ private:
   bool Curved(const TrimRegion& region)
   {
     CellZone zone(*this->Job.Tree, region, CutMargin);
-    this->Scale = zone.Scale();
+    this->Scale = region.CellScale(*this->Job.Tree);
     this->IsWholeLeaf.assign(this->Job.Tree->Leaves().size(), 0);
     for (int k : zone.WholeLeaves())
     {
@@ -209,6 +211,62 @@ private:
     return true;
   }
 
+  // Points of a crease opposite to the vertices of trim lines that run beside it. The strip between
+  // the two can be narrower than their chords bow: triangles between vertices that are not opposite
+  // to each other would overlap.
+  std::vector<Vec2> Rungs(int d, double crease, const TrimRegion& region) const
+  {
+    struct Rung
+    {
+      double At, Room; // Room: how near another rung may come.
+    };
+    std::vector<Rung> rungs;
+    std::vector<int> previous(this->BoundaryCount);
+    for (int k = 0; k < this->BoundaryCount; ++k)
+    {
+      previous[this->Next[k]] = k;
+    }
+    for (int k = 0; k < this->BoundaryCount; ++k)
+    {
+      const Vec2& p = this->Mesh.UV[k];
+      const auto length = [&](int other) {
+        return std::abs(this->Mesh.UV[other][1 - d] - p[1 - d]) * this->Scale[1 - d];
+      };
+      const double apart = std::abs(p[d] - crease) * this->Scale[d];
+      const double chord = std::max(length(previous[k]), length(this->Next[k]));
+      if (apart > 0.0 && apart < 0.25 * chord &&
+        !region.Crosses(1 - d, p[1 - d], std::min(p[d], crease), std::max(p[d], crease)))
+      {
+        rungs.push_back({ p[1 - d], 0.2 * chord });
+      }
+      else if (apart == 0.0)
+      {
+        rungs.push_back({ p[1 - d], 0.0 }); // A vertex there already.
+      }
+    }
+    std::sort(rungs.begin(), rungs.end(), [](const Rung& a, const Rung& b) { return a.At < b.At; });
+    std::vector<Vec2> points;
+    double last = -1e300;
+    for (std::size_t k = 0; k < rungs.size(); ++k)
+    {
+      const double room = rungs[k].Room / this->Scale[1 - d];
+      const bool free =
+        k + 1 == rungs.size() || rungs[k + 1].Room > 0.0 || rungs[k + 1].At - rungs[k].At > room;
+      if (rungs[k].Room == 0.0)
+      {
+        last = rungs[k].At;
+      }
+      else if (free && rungs[k].At - last > room)
+      {
+        last = rungs[k].At;
+        points.emplace_back();
+        points.back()[d] = crease;
+        points.back()[1 - d] = last;
+      }
+    }
+    return points;
+  }
+
   // Vertices along every crease, joined where the face goes on between them.
   void AddCreases(BorderTriangulation& border, std::vector<int>& vertexOf, const TrimRegion& region)
   {
@@ -217,19 +275,32 @@ private:
       return;
     }
     const std::size_t before = this->Mesh.UV.size();
+    const auto add = [&](const Vec2& p, bool known) {
+      if (region.Inside(p) && !known)
+      {
+        const int id = border.AddPoint(p.cwiseProduct(this->Scale));
+        if (id == int(vertexOf.size()))
+        {
+          vertexOf.push_back(int(this->Mesh.UV.size()));
+          this->Mesh.UV.push_back(p);
+        }
+      }
+    };
     for (double u : this->Job.Tree->Creases(0))
     {
       for (double v : this->Job.Tree->Creases(1))
       {
         const Vec2 p(u, v);
-        if (region.Inside(p) && !this->IsInWholeCell(p))
+        add(p, this->IsInWholeCell(p) || region.IsOnLine(0, p) || region.IsOnLine(1, p));
+      }
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      for (double crease : this->Job.Tree->Creases(d))
+      {
+        for (const Vec2& rung : this->Rungs(d, crease, region))
         {
-          const int id = border.AddPoint(p.cwiseProduct(this->Scale));
-          if (id == int(vertexOf.size()))
-          {
-            vertexOf.push_back(int(this->Mesh.UV.size()));
-            this->Mesh.UV.push_back(p);
-          }
+          add(rung, this->TouchesWholeCell(rung) || region.IsOnLine(d, rung));
         }
       }
     }
@@ -270,6 +341,15 @@ private:
     bool whole = true;
     this->Job.Tree->Query(
       { p[0], p[0], p[1], p[1] }, [&](int k) { whole = whole && this->IsWholeLeaf[k]; });
+    return whole;
+  }
+
+  // True if p is on the side of a whole cell, which has no vertex there.
+  bool TouchesWholeCell(const Vec2& p) const
+  {
+    bool whole = false;
+    this->Job.Tree->Query(
+      { p[0], p[0], p[1], p[1] }, [&](int k) { whole = whole || this->IsWholeLeaf[k]; });
     return whole;
   }
 

@@ -7,7 +7,8 @@
 namespace nurbs
 {
 
-TrimRegion::TrimRegion(const std::vector<std::vector<BoundaryVertex>>& loops)
+TrimRegion::TrimRegion(const std::vector<std::vector<BoundaryVertex>>& loops, const Vec2& near)
+  : Near(near)
 {
   for (const auto& loop : loops)
   {
@@ -105,6 +106,21 @@ bool TrimRegion::Crosses(int dir, double value, double from, double to) const
   return false;
 }
 
+bool TrimRegion::IsOnLine(int dir, const Vec2& p) const
+{
+  for (const auto& side : this->Sides)
+  {
+    const Vec2& a = this->Corners[side.first];
+    const Vec2& b = this->Corners[side.second];
+    if (a[dir] == p[dir] && b[dir] == p[dir] &&
+      (a[1 - dir] <= p[1 - dir]) != (b[1 - dir] < p[1 - dir]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::vector<std::pair<int, int>> TrimRegion::CutLeaves(const SurfaceTree& tree, double margin) const
 {
   std::vector<std::pair<int, int>> cut;
@@ -112,10 +128,54 @@ std::vector<std::pair<int, int>> TrimRegion::CutLeaves(const SurfaceTree& tree, 
   {
     const Vec2& a = this->Corners[this->Sides[s].first];
     const Vec2& b = this->Corners[this->Sides[s].second];
-    tree.QuerySegment(a, b, margin, [&](int leaf) { cut.emplace_back(leaf, int(s)); });
+    bool small = false;
+    tree.QuerySegment(a, b, margin, [&](int leaf) {
+      const ParameterBox& box = tree.Leaves()[leaf].Box;
+      small = small || margin * box.A() < this->Near[0] || margin * box.B() < this->Near[1];
+      cut.emplace_back(leaf, int(s));
+    });
+    for (int k = 0; k < 4 && small; ++k)
+    {
+      Vec2 shift = Vec2::Zero();
+      shift[k / 2] = k % 2 == 0 ? this->Near[k / 2] : -this->Near[k / 2];
+      tree.QuerySegment(
+        a + shift, b + shift, 0.0, [&](int leaf) { cut.emplace_back(leaf, int(s)); });
+    }
   }
   std::sort(cut.begin(), cut.end());
+  cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
   return cut;
+}
+
+// Between two knots that nearly coincide there are cells a thousand times narrower than their
+// neighbours. They must not spoil the mean: every cell counts by the share of the trim lines (in units
+// of the domain) that runs through it, and those so narrow that triangles in them may have any shape,
+// not at all. The mean of square roots leans to the small cells, where a wrong shape costs most.
+Vec2 TrimRegion::CellScale(const SurfaceTree& tree) const
+{
+  const Vec2 extent(
+    tree.Lines(0).back() - tree.Lines(0).front(), tree.Lines(1).back() - tree.Lines(1).front());
+  Vec2 sum = Vec2::Zero();
+  for (const auto& side : this->Sides)
+  {
+    const Vec2& a = this->Corners[side.first];
+    const Vec2 d = this->Corners[side.second] - a;
+    const double length = d.cwiseQuotient(extent).norm();
+    const int parts = 1 + int(std::min(32.0, 32.0 * length));
+    for (int k = 0; k < parts; ++k)
+    {
+      const Vec2 p = a + (k + 0.5) / parts * d;
+      tree.Query({ p[0], p[0], p[1], p[1] }, [&](int leaf) {
+        const ParameterBox& box = tree.Leaves()[leaf].Box;
+        if (box.A() > this->Near[0] && box.B() > this->Near[1])
+        {
+          sum += length / parts * Vec2(1.0 / std::sqrt(box.A()), 1.0 / std::sqrt(box.B()));
+        }
+      });
+    }
+  }
+  const double ratio = sum[0] > 0.0 ? std::exp2(std::round(2.0 * std::log2(sum[1] / sum[0]))) : 1.0;
+  return ratio < 1.0 ? Vec2(1.0, ratio) : Vec2(1.0 / ratio, 1.0);
 }
 
 } // namespace nurbs
