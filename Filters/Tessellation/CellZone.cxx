@@ -51,7 +51,6 @@ CellZone::CellZone(const SurfaceTree& tree, const TrimRegion& region, double mar
     this->Vertex(leaf.U1, leaf.V1);
   }
   this->KeepCutCorners(region, cut);
-  this->MeasureScale(cut);
 }
 
 int CellZone::Vertex(LineCode u, LineCode v)
@@ -110,29 +109,6 @@ void CellZone::KeepCutCorners(const TrimRegion& region, const std::vector<std::p
     {
       this->Free.push_back(this->Vertex(key.U, key.V));
     }
-  }
-}
-
-void CellZone::MeasureScale(const std::vector<std::pair<int, int>>& cut)
-{
-  const std::vector<TreeLeaf>& leaves = this->Tree.Leaves();
-  double su = 0.0;
-  double sv = 0.0;
-  int last = -1;
-  for (const auto& pair : cut)
-  {
-    if (pair.first != last)
-    {
-      last = pair.first;
-      su += 1.0 / leaves[last].Box.A();
-      sv += 1.0 / leaves[last].Box.B();
-    }
-  }
-  if (su > 0.0 && sv > 0.0)
-  {
-    // A power of two scales exactly: what does not cross in (u, v) does not cross when scaled.
-    const double ratio = std::exp2(std::round(std::log2(sv / su)));
-    this->Factor = ratio < 1.0 ? Vec2(1.0, ratio) : Vec2(1.0 / ratio, 1.0);
   }
 }
 

@@ -51,8 +51,6 @@ public:
   const std::vector<std::pair<int, int>>& OpenSides() const { return this->Sides; }
   /// Vertices inside the border zone.
   const std::vector<int>& FreePoints() const { return this->Free; }
-  /// Factors that make a mean cut (or any) cell a unit square.
-  const Vec2& Scale() const { return this->Factor; }
 
 private:
   struct Key
@@ -70,7 +68,6 @@ private:
   };
   int Vertex(LineCode u, LineCode v);
   void KeepCutCorners(const TrimRegion& region, const std::vector<std::pair<int, int>>& cut);
-  void MeasureScale(const std::vector<std::pair<int, int>>& cut);
   void SortVertices();
   void FindOpenSides(const std::vector<std::pair<int, int>>& directed);
   void Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
@@ -92,7 +89,6 @@ private:
   std::vector<std::pair<int, int>> Sides;
   std::vector<int> ByUV, ByVU; ///< Vertices sorted by (u, v) and by (v, u),
   std::vector<int> AtUV, AtVU; ///< and where each vertex is in them.
-  Vec2 Factor = Vec2(1.0, 1.0);
 };
 
 } // namespace nurbs

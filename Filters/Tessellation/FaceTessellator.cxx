@@ -502,9 +502,14 @@ private:
   bool SplitSegments(const int* t)
   {
     const std::size_t before = this->Requests.size();
+    const auto length = [&](int i) {
+      return (this->Mesh.Points[t[(i + 1) % 3]] - this->Mesh.Points[t[i]]).norm();
+    };
+    const double longest = std::max({ length(0), length(1), length(2) });
     for (int i = 0; i < 3; ++i)
     {
-      if (this->IsSegment(t[i], t[(i + 1) % 3]))
+      // A long inner edge may be what folds it.
+      if (this->IsSegment(t[i], t[(i + 1) % 3]) && length(i) >= 0.5 * longest)
       {
         this->RequestSplit(*this->Segments[t[i]]);
       }
