@@ -27,28 +27,22 @@ double FaceErrors::Limit(const int* t) const
   return std::max(this->Job.Tolerance, this->GapOf(t) + RoomBesideGap * this->Job.Tolerance);
 }
 
-bool FaceErrors::IsPole(int vertex) const
+// The direction (0: u, 1: v) in which a pole's parameters run along the boundary; -1: no pole.
+int FaceErrors::PoleDirection(int vertex) const
 {
   if (vertex >= this->BoundaryCount)
   {
-    return false;
+    return -1;
   }
-  const std::int64_t edge = this->Segments[vertex]->Edge;
-  return (edge >= 0 && (*this->Job.Edges)[edge].Degenerate) ||
-    this->Mesh.Points[vertex] == this->Mesh.Points[this->Next[vertex]];
-}
-
-// The corner that stands for a side of poles; -1: none, or the base has no direction of its own.
-int FaceErrors::PoleOf(const int* t) const
-{
-  for (int i = 0; i < 3; ++i)
-  {
-    if (this->IsPole(t[i]))
-    {
-      return i;
-    }
-  }
-  return -1;
+  const auto direction = [&](int a, int b) {
+    const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseAbs();
+    return this->Mesh.Points[a] != this->Mesh.Points[b] ? -1
+      : d[1] == 0.0                                     ? 0
+      : d[0] == 0.0                                     ? 1
+                                                        : -1;
+  };
+  const int after = direction(vertex, this->Next[vertex]);
+  return after < 0 ? direction(this->Previous[vertex], vertex) : after;
 }
 
 bool FaceErrors::IsCollapsed(const int* t) const
@@ -74,7 +68,11 @@ double FaceErrors::TriangleError(FacetBound& bound, const int* t) const
     triangle.Boundary[i] = this->IsSegment(t[i], t[(i + 1) % 3]);
   }
   triangle.Gap = this->GapOf(t);
-  triangle.Pole = this->PoleOf(t);
+  for (int i = 0; i < 3 && triangle.Pole < 0; ++i)
+  {
+    triangle.PoleDirection = this->PoleDirection(t[i]);
+    triangle.Pole = triangle.PoleDirection < 0 ? -1 : i;
+  }
   return bound.Error(triangle, this->Limit(t));
 }
 

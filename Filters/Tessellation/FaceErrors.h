@@ -26,14 +26,14 @@ protected:
   bool IsSegment(int a, int b) const { return a < this->BoundaryCount && this->Next[a] == b; }
 
   std::vector<const BoundaryVertex*> Segments; ///< The segment that starts at each boundary vertex.
-  std::vector<int> Next;                       ///< The boundary vertex after each.
+  std::vector<int> Next;                       ///< The boundary vertex after each,
+  std::vector<int> Previous;                   ///< and before.
   int BoundaryCount = 0;
   std::vector<double> Gaps; ///< Distance of each boundary vertex from the surface at its (u, v).
 
 private:
   double GapOf(const int* t) const;
-  int PoleOf(const int* t) const;
-  bool IsPole(int vertex) const;
+  int PoleDirection(int vertex) const;
 };
 
 } // namespace nurbs

@@ -57,6 +57,7 @@ private:
       {
         const BoundaryVertex& v = loop[k];
         this->Next.push_back(first + int((k + 1) % loop.size()));
+        this->Previous.push_back(first + int((k + loop.size() - 1) % loop.size()));
         this->Mesh.UV.push_back(v.UV);
         this->Mesh.Points.push_back(v.X);
         this->Segments.push_back(&v);

@@ -189,10 +189,10 @@ double FacetBound::Error(const Triangle& t, double limit)
   }
   else
   {
-    // The region between the base and the pole's side, which runs along u or v.
+    // The region between the base and the pole's side.
     const Vec2& a = t.UV[(t.Pole + 1) % 3];
     const Vec2& b = t.UV[(t.Pole + 2) % 3];
-    const int d = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
+    const int d = t.PoleDirection;
     Vec2& pa = from[t.Pole];
     Vec2& pb = to[(t.Pole + 2) % 3];
     pa[d] = a[d];

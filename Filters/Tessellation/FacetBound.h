@@ -102,6 +102,7 @@ public:
     /// The corner that is a pole whose other parameters have no triangles of their own, so that this
     /// one stands for the whole region between its base and the pole's side; -1: none.
     int Pole = -1;
+    int PoleDirection = 0; ///< In which (0: u, 1: v) that side runs.
   };
 
   /// Bound (or estimate, ErrorMode::Estimated) of the distance between a triangle and the surface over
