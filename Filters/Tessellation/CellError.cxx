@@ -138,6 +138,10 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
       continue; // At a pole: no triangle comes out.
     }
     const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
+    if (this->LooksBack(facet, f))
+    {
+      return 1e300;
+    }
     const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
     double error = 1e300;
     if (guaranteed)
@@ -164,6 +168,21 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
     }
   }
   return worst;
+}
+
+// True if a facet larger than the tolerance looks against the surface at all its corners.
+bool CellError::LooksBack(const Facet& facet, const int* f) const
+{
+  double longest = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!facet.HasPlane() || facet.Normal().dot(this->Normal[f[i]]) >= 0.0)
+    {
+      return false;
+    }
+    longest = std::max(longest, (this->At[f[(i + 1) % 3]] - this->At[f[i]]).norm());
+  }
+  return longest > this->Goal.Tolerance;
 }
 
 // The error by samples, as many as it takes to tell.

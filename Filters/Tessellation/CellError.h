@@ -33,6 +33,7 @@ private:
   int CheaperAxis(const ParameterBox& box) const;
   double DenseError(
     const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box);
+  bool LooksBack(const Facet& facet, const int* f) const;
   bool IsBeyond(const Vec3& middle) const;
   bool ExceedsLimits(int& axis) const;
 

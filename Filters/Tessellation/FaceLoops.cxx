@@ -191,20 +191,44 @@ void FaceLoops::SnapLoop(std::vector<BoundaryVertex>& loop) const
     const Vec2 d = (raw[i] - raw[j]).cwiseAbs();
     return d[0] > 4.0 * this->Job.Snap[0] || d[1] > 4.0 * this->Job.Snap[1];
   };
+  // Neighbours are moved together or not at all: else the boundary would go to and fro.
+  std::vector<Vec2> near(raw);
+  std::vector<char> keep(n, 0);
+  const SurfaceView& s = this->TheFace.Geometry;
   for (std::size_t k = 0; k < n; ++k)
   {
-    if (!apart(k, (k + n - 1) % n) || !apart(k, (k + 1) % n))
+    if (apart(k, (k + n - 1) % n) && apart(k, (k + 1) % n))
     {
-      continue;
+      near[k] = this->Clamp(raw[k], true);
     }
-    const Vec2 near = this->Clamp(raw[k], true);
-    const SurfaceView& s = this->TheFace.Geometry;
-    if (near != raw[k] &&
-      (Evaluate(s, near[0], near[1]) - Evaluate(s, raw[k][0], raw[k][1])).norm() <=
-        0.03 * this->Job.Tolerance)
+    keep[k] = near[k] != raw[k] &&
+      (Evaluate(s, near[k][0], near[k][1]) - Evaluate(s, raw[k][0], raw[k][1])).norm() >
+        0.03 * this->Job.Tolerance;
+  }
+  for (std::size_t step = 0; step < 2 * n; ++step)
+  {
+    const std::size_t k = step % n;
+    const std::size_t after = (k + 1) % n;
+    if (near[k] != raw[k] && near[after] != raw[after])
+    {
+      keep[after] = keep[after] || keep[k];
+    }
+  }
+  for (std::size_t step = 2 * n; step-- > 0;)
+  {
+    const std::size_t k = step % n;
+    const std::size_t after = (k + 1) % n;
+    if (near[k] != raw[k] && near[after] != raw[after])
+    {
+      keep[k] = keep[k] || keep[after];
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    if (near[k] != raw[k] && !keep[k])
     {
       loop[k].Other = raw[k];
-      loop[k].UV = near;
+      loop[k].UV = near[k];
     }
   }
 }
@@ -225,12 +249,6 @@ Vec2 FaceLoops::Clamp(const Vec2& uv, bool snap) const
     for (double crease : this->Job.Tree->Creases(d))
     {
       p[d] = std::abs(p[d] - crease) <= near ? crease : p[d];
-    }
-    // The tree may begin at a knot a little inside the boundary.
-    const std::vector<double>& lines = this->Job.Tree->Lines(d);
-    if (snap)
-    {
-      p[d] = Interval{ lines.front(), lines.back() }.Clamp(p[d]);
     }
   }
   return p;

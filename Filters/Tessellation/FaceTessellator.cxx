@@ -137,7 +137,8 @@ private:
     zone.TriangulateWhole(
       [&](FacetBound& bound, const CellZone::Triangle& t) {
         const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-        return this->TriangleError(bound, corner) <= this->Job.Tolerance;
+        return !this->LooksBack(corner) &&
+          this->TriangleError(bound, corner) <= this->Job.Tolerance;
       },
       FacetBound(*this->Job.Bound, this->Job.Options->Error), *this->Job.States,
       this->Job.Parallel);
@@ -434,7 +435,7 @@ private:
         }
       }
       Vec2 p;
-      if (this->SplitsBoundary(t.data(), edge))
+      if (this->SplitsWall(t.data(), edge))
       {
         continue;
       }
@@ -493,6 +494,13 @@ private:
       std::min({ a[1], b[1], c[1] }), std::max({ a[1], b[1], c[1] }) };
   }
 
+  // True if a triangle larger than the tolerance looks against the surface at all its corners.
+  bool LooksBack(const int* t) const
+  {
+    const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);
+    return facet.HasPlane() && this->IsFolded(t, facet.Normal()) && !this->IsTiny(t);
+  }
+
   bool IsFolded(const int* t, const Vec3& n) const
   {
     return n.dot(this->Mesh.Normals[t[0]]) < 0.0 && n.dot(this->Mesh.Normals[t[1]]) < 0.0 &&
@@ -518,9 +526,9 @@ private:
     return this->Requests.size() > before;
   }
 
-  // A split of `edge` would leave a sliver at one of the triangle's boundary segments: asks for a
-  // vertex on that segment instead.
-  bool SplitsBoundary(const int* t, const std::pair<int, int>& edge)
+  // A split of `edge` would leave a sliver at one of the triangle's boundary segments or at a side of a
+  // whole cell: asks for a vertex there instead.
+  bool SplitsWall(const int* t, const std::pair<int, int>& edge)
   {
     bool asked = false;
     const Vec2 p = edge.first < 0
@@ -530,20 +538,39 @@ private:
     {
       const int a = t[i];
       const int b = t[(i + 1) % 3];
-      if (a >= this->BoundaryCount || b != this->Next[a] || this->Segments[a]->Edge < 0)
-      {
-        continue;
-      }
       const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
       const Vec2 e = (p - this->Mesh.UV[a]).cwiseProduct(this->Scale);
       const double length = d.squaredNorm();
-      if (std::abs(d[0] * e[1] - d[1] * e[0]) < 0.2 * length)
+      if (std::abs(d[0] * e[1] - d[1] * e[0]) >= 0.2 * length)
+      {
+        continue;
+      }
+      if (!this->IsSegment(a, b))
+      {
+        asked = this->WeakenWholeCells(0.5 * (this->Mesh.UV[a] + this->Mesh.UV[b])) || asked;
+      }
+      else if (this->Segments[a]->Edge >= 0)
       {
         this->RequestSplit(*this->Segments[a]);
         asked = true;
       }
     }
     return asked;
+  }
+
+  // Asks for finer cells where p lies on the side of a whole one; false: there is none, or it is too
+  // late.
+  bool WeakenWholeCells(const Vec2& p)
+  {
+    bool found = false;
+    this->Job.Tree->Query({ p[0], p[0], p[1], p[1] }, [&](int k) {
+      if (this->IsWholeLeaf[k] && !this->Job.LastPass)
+      {
+        this->WeakLeaves.push_back(k);
+        found = true;
+      }
+    });
+    return found;
   }
 
   // --- Step 4: certification --------------------------------------------------------------------

@@ -195,15 +195,6 @@ private:
     };
     widen(used.U0, used.U1, u);
     widen(used.V0, used.V1, v);
-    const auto snap = [&](double& low, double& high, int d) {
-      for (const Knot& knot : DistinctKnots(face.Geometry.Knots[d], face.Geometry.Degree[d]))
-      {
-        low = std::abs(low - knot.Value) <= this->Snaps[f][d] ? knot.Value : low;
-        high = std::abs(high - knot.Value) <= this->Snaps[f][d] ? knot.Value : high;
-      }
-    };
-    snap(used.U0, used.U1, 0);
-    snap(used.V0, used.V1, 1);
     return used;
   }
 
@@ -373,14 +364,14 @@ private:
       this->Say(mesh, "the triangle limit was reached");
       return false;
     }
-    if (mesh.CertifiedError <= tolerance || this->Options.Error == ErrorMode::Estimated)
-    {
-      return false;
-    }
     if (!weak.empty() && !last)
     {
       this->Trees[f]->Refine(*this->Bounds[f], this->GoalOf(f), std::move(weak));
       return true;
+    }
+    if (mesh.CertifiedError <= tolerance || this->Options.Error == ErrorMode::Estimated)
+    {
+      return false;
     }
     if (!settled)
     {
