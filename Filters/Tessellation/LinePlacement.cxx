@@ -77,6 +77,7 @@ LinePlacement::LinePlacement(const SurfaceBound& bound, const ParameterBox& doma
       s.Middle = { low[d] + 0.02 * (high[d] - low[d]), high[d] - 0.02 * (high[d] - low[d]) };
     }
   }
+  this->DropNearKnots(bound, tolerance);
   this->Sample(bound, tolerance, parallel);
   this->Refine(0);
   this->Refine(1);
@@ -105,6 +106,43 @@ LinePlacement::LinePlacement(const SurfaceBound& bound, const ParameterBox& doma
     }
   }
   this->Share(best, bestShare);
+}
+
+// Lines on two knots whose distance in space is beneath the tolerance would only make slivers.
+void LinePlacement::DropNearKnots(const SurfaceBound& bound, double tolerance)
+{
+  constexpr int Steps = 4;
+  SurfaceEvaluator evaluator(bound.Evaluator());
+  double speed[2] = { 0.0, 0.0 };
+  const auto at = [&](int d, int i) {
+    const std::vector<double>& knots = this->Direction[d].Knots;
+    return knots.front() + (knots.back() - knots.front()) * i / Steps;
+  };
+  for (int j = 0; j <= Steps; ++j)
+  {
+    for (int i = 0; i <= Steps; ++i)
+    {
+      const SurfaceDerivatives s = evaluator.Derivatives(at(0, i), at(1, j), 1);
+      speed[0] = std::max(speed[0], s.Su.norm());
+      speed[1] = std::max(speed[1], s.Sv.norm());
+    }
+  }
+  for (int d = 0; d < 2; ++d)
+  {
+    Samples& s = this->Direction[d];
+    s.Lines.assign(1, s.Knots.front());
+    for (std::size_t k = 1; k + 1 < s.Knots.size(); ++k)
+    {
+      const double t = s.Knots[k];
+      const bool apart = speed[d] * (t - s.Lines.back()) >= tolerance &&
+        speed[d] * (s.Knots.back() - t) >= tolerance;
+      if (apart || std::binary_search(s.Stops.begin(), s.Stops.end(), t))
+      {
+        s.Lines.push_back(t);
+      }
+    }
+    s.Lines.push_back(s.Knots.back());
+  }
 }
 
 void LinePlacement::Sample(const SurfaceBound& bound, double tolerance, const ParallelFor& parallel)
@@ -275,7 +313,7 @@ void LinePlacement::Place(double margin, ParameterLines& u, ParameterLines& v) c
   for (int d = 0; d < 2; ++d)
   {
     const Samples& s = this->Direction[d];
-    const std::vector<double>& stops = s.Even ? s.Stops : s.Knots;
+    const std::vector<double>& stops = s.Even ? s.Stops : s.Lines;
     std::vector<double>& lines = out[d]->At;
     std::vector<double>& demand = out[d]->Demand;
     lines.assign(1, stops.front());

@@ -37,6 +37,7 @@ private:
   struct Samples
   {
     std::vector<double> Knots;  ///< Distinct, with the ends of the domain.
+    std::vector<double> Lines;  ///< Those knots that are lines if lines lie on knots.
     std::vector<double> Stops;  ///< Creases, with the ends of the domain.
     int PerSpan = 1;            ///< Cells in each knot span.
     std::vector<double> At;     ///< Boundaries of cells, ascending, knots among them.
@@ -50,6 +51,7 @@ private:
     }
     double Length(std::size_t cell) const { return this->At[cell + 1] - this->At[cell]; }
   };
+  void DropNearKnots(const SurfaceBound& bound, double tolerance);
   void Sample(const SurfaceBound& bound, double tolerance, const ParallelFor& parallel);
   void Refine(int dir);
   double Bend(int dir, std::size_t own, std::size_t other) const;

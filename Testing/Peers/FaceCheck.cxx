@@ -252,8 +252,14 @@ private:
       return;
     }
     const auto uv = this->CornerUV(t);
+    // Against the mean of the face's normals at its middle and corners: on a rough face the surface
+    // may be steep at one place of a triangle that is within the tolerance everywhere.
     const Foot foot = this->Surface.Project(a + (ab + ac) / 3.0, (uv[0] + uv[1] + uv[2]) / 3.0);
-    const Vec3 outer = this->Surface.OuterNormal(foot.UV);
+    Vec3 outer = this->Surface.OuterNormal(foot.UV);
+    for (const Vec2& corner : uv)
+    {
+      outer += this->Surface.OuterNormal(corner);
+    }
     this->Report.Folded += normal.normalized().dot(outer) < -1e-6;
   }
 
