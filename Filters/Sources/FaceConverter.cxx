@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceConverter.h"
 
+#include "SurfaceEvaluator.h"
+
 #include "CurveConverter.h"
 #include "CurveFit.h"
 #include "SurfaceConverter.h"
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace nurbs
 {
@@ -127,10 +130,11 @@ private:
   std::vector<double> BreaksOfTrim(const Use& use, const ParameterMap& map, Interval range) const;
   Interval RangeOf(int dir) const;
   void ConvertSurface();
-  void ClampTrim(Part::TrimCurve& trim) const;
+  void ClampTrim(Part::TrimCurve& trim);
   void MeasureSurface();
-  Vec3 Lift(const CurveView<2>& trim, double t) const;
-  double Deviation(const Part::TrimCurve& trim) const;
+  Vec3 Lift(const CurveView<2>& trim, double t);
+  double Deviation(const Part::TrimCurve& trim);
+  double DistanceFromPlane(const CurveView<3>& curve) const;
   void MeasureEdges();
 
   TopoDS_Face Shape;
@@ -139,6 +143,7 @@ private:
   TopLoc_Location Where;
   FaceSurface Support;
   std::vector<std::vector<Use>> Loops;
+  std::optional<SurfaceEvaluator> Evaluator; ///< Of the converted surface.
 };
 
 Use Converter::MakeUse(const TopoDS_Edge& edge) const
@@ -470,7 +475,7 @@ void Converter::ConvertSurface()
 /// Rounding, fits and sloppy files leave control points of trim curves a little outside the domain,
 /// where splines may run wild. They are moved inside; by more than rounding only if the curve comes
 /// not much farther from its edge than it is or the tolerance allows.
-void Converter::ClampTrim(Part::TrimCurve& trim) const
+void Converter::ClampTrim(Part::TrimCurve& trim)
 {
   constexpr double Rounding = 1e-9;
   constexpr double Sloppy = 1e-3;
@@ -529,22 +534,49 @@ void Converter::MeasureSurface()
 }
 
 /// The surface over a point of a trim curve; the domain's border stands for what is outside.
-Vec3 Converter::Lift(const CurveView<2>& trim, double t) const
+Vec3 Converter::Lift(const CurveView<2>& trim, double t)
 {
-  const SurfaceView surface = this->Result.Face.Geometry.View();
+  if (!this->Evaluator)
+  {
+    this->Evaluator.emplace(this->Result.Face.Geometry.View());
+  }
+  const SurfaceView& surface = this->Evaluator->GetSurface();
   const Vec2 p = Evaluate(trim, t);
-  return Evaluate(surface, surface.Domain(0).Clamp(p[0]), surface.Domain(1).Clamp(p[1]));
+  return this->Evaluator->Point(surface.Domain(0).Clamp(p[0]), surface.Domain(1).Clamp(p[1]));
 }
 
 /// Largest distance of the lifted trim curve from its edge.
-double Converter::Deviation(const Part::TrimCurve& trim) const
+double Converter::Deviation(const Part::TrimCurve& trim)
 {
   const Part::Edge& edge = (*this->Table.Edges)[static_cast<std::size_t>(trim.Edge)];
+  const CurveView<3> curve = edge.Geometry.View();
+  if (this->Support.Converter.IsPlane())
+  {
+    // The trim curve is the edge's projection: no point is farther than a control point.
+    const double most = this->DistanceFromPlane(curve);
+    if (most <= 1e-9 * this->Table.Size)
+    {
+      return most;
+    }
+  }
   return LargestValue(
-    [&](double t) {
-      return (this->Lift(trim.Geometry.View(), t) - Evaluate(edge.Geometry.View(), t)).norm();
-    },
-    SampleParameters(trim.Geometry.View(), edge.Geometry.View()), 1e-11 * this->Table.Size);
+    [&](double t) { return (this->Lift(trim.Geometry.View(), t) - Evaluate(curve, t)).norm(); },
+    SampleParameters(trim.Geometry.View(), curve), 1e-11 * this->Table.Size);
+}
+
+/// Largest distance of a curve's control points from the face's plane.
+double Converter::DistanceFromPlane(const CurveView<3>& curve) const
+{
+  const SurfaceView plane = this->Result.Face.Geometry.View();
+  const Vec3 origin = plane.Point(0);
+  const Vec3 normal =
+    (plane.Point(1) - origin).cross(plane.Point(plane.Count[0]) - origin).normalized();
+  double most = 0.0;
+  for (int i = 0; i < curve.Count; ++i)
+  {
+    most = std::max(most, std::abs(normal.dot(curve.Point(i) - origin)));
+  }
+  return most;
 }
 
 /// Tells how far the edges are and where the face sees the vertices.
