@@ -343,16 +343,36 @@ void vtkNURBSModel::CopyFaceAttributes(
   }
 }
 
+namespace
+{
+constexpr const char* StructureNames[] = { names::Knots, names::LoopCurveStart,
+  names::LoopCurveCount, names::TrimCurveDegree, names::TrimCurveKnotStart,
+  names::TrimCurvePointStart, names::TrimCurvePointCount, names::TrimCurveEdgeId,
+  names::TrimCurveReversed, names::TrimPoints, names::TrimKnots, names::EdgeDegree,
+  names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
+  names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints };
+} // namespace
+
 void vtkNURBSModel::RemoveStructure(vtkFieldData* field)
 {
-  for (const char* name : { names::Knots, names::LoopCurveStart, names::LoopCurveCount,
-         names::TrimCurveDegree, names::TrimCurveKnotStart, names::TrimCurvePointStart,
-         names::TrimCurvePointCount, names::TrimCurveEdgeId, names::TrimCurveReversed,
-         names::TrimPoints, names::TrimKnots, names::EdgeDegree, names::EdgeKnotStart,
-         names::EdgePointStart, names::EdgePointCount, names::EdgeVertices, names::EdgeTolerance,
-         names::EdgePoints, names::EdgeKnots, names::VertexPoints })
+  for (const char* name : StructureNames)
   {
     field->RemoveArray(name);
+  }
+}
+
+void vtkNURBSModel::PassWithoutStructure(vtkFieldData* model, vtkFieldData* output)
+{
+  for (int k = 0; k < model->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = model->GetAbstractArray(k);
+    const char* name = array->GetName();
+    if (!name ||
+      std::none_of(std::begin(StructureNames), std::end(StructureNames),
+        [&](const char* structure) { return std::strcmp(structure, name) == 0; }))
+    {
+      output->AddArray(array);
+    }
   }
 }
 

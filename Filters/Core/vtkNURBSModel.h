@@ -124,6 +124,11 @@ public:
    */
   static void RemoveStructure(vtkFieldData* field);
 
+  /**
+   * Passes the other arrays of a model's field data on, see RemoveStructure.
+   */
+  static void PassWithoutStructure(vtkFieldData* model, vtkFieldData* output);
+
   ///@{
   /**
    * Identity of a cell's face: its FaceId, or the cell's index if there is no such array.

@@ -285,19 +285,12 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
   AddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
 }
 
-// The input's field data without what describes its surfaces.
-void PassFieldData(vtkUnstructuredGrid* grid, vtkPolyData* output)
-{
-  output->GetFieldData()->PassData(grid->GetFieldData());
-  vtkNURBSModel::RemoveStructure(output->GetFieldData());
-}
-
 } // namespace
 
 void vtkNURBSMeshOutput::FillMesh(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh)
 {
   mesh->Initialize();
-  PassFieldData(grid, mesh);
+  vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), mesh->GetFieldData());
   const Offsets offsets(range);
   const vtkIdType points = offsets.Points.back();
   auto xyz = NewArray<vtkDoubleArray>("Points", 3, points);
@@ -331,7 +324,7 @@ void vtkNURBSMeshOutput::FillLines(
   const Range& range, vtkUnstructuredGrid* grid, std::int64_t firstEdge, vtkPolyData* lines)
 {
   lines->Initialize();
-  PassFieldData(grid, lines);
+  vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), lines->GetFieldData());
   const vtkIdType count = vtkIdType(range.LastLine - range.FirstLine);
   auto edges = NewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);
   auto faces = NewArray<vtkTypeInt64Array>(vtkNURBSModel::FaceIdName(), 1, count);
