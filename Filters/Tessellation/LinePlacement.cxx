@@ -13,6 +13,7 @@ constexpr double EvenShare = 0.75; // Mean demand over greatest demand from whic
 constexpr std::size_t FewSpans = 16;    // Fewer are sampled too thinly to tell.
 constexpr std::size_t Interpolated = 9; // Fewer knots: samples are interpolated,
 constexpr int Finer = 4;                // to so many times as many.
+constexpr double FewCells = 4.0;        // No search for the best shares is worth while.
 constexpr double LeastRoom = 0.1;       // Of the tolerance, for the second direction.
 
 int SamplesOfSpan(int degree, std::size_t spans)
@@ -77,7 +78,6 @@ LinePlacement::LinePlacement(const SurfaceBound& bound, const ParameterBox& doma
       s.Middle = { low[d] + 0.02 * (high[d] - low[d]), high[d] - 0.02 * (high[d] - low[d]) };
     }
   }
-  this->DropNearKnots(bound, tolerance);
   this->Sample(bound, tolerance, parallel);
   this->Refine(0);
   this->Refine(1);
@@ -85,23 +85,28 @@ LinePlacement::LinePlacement(const SurfaceBound& bound, const ParameterBox& doma
   {
     this->Direction[d].Even = this->Direction[d].Knots.size() <= FewSpans || this->IsEven(d);
   }
+  if (!this->FollowsDemand(0) || !this->FollowsDemand(1))
+  {
+    this->DropNearKnots(bound, tolerance);
+  }
   // Which direction comes first, and what it may use of the tolerance: whatever makes fewest cells.
+  double least = this->Share(0, 0.5);
+  if (least <= FewCells || !this->FollowsDemand(0) || !this->FollowsDemand(1))
+  {
+    return;
+  }
   int best = 0;
   double bestShare = 0.5;
-  double least = 1e300;
-  if (this->Direction[0].Even && this->Direction[1].Even)
+  for (int first = 0; first < 2; ++first)
   {
-    for (int first = 0; first < 2; ++first)
+    for (int tenth = 3; tenth <= 7; ++tenth)
     {
-      for (int tenth = 3; tenth <= 7; ++tenth)
+      const double cells = this->Share(first, 0.1 * tenth);
+      if (cells < least)
       {
-        const double cells = this->Share(first, 0.1 * tenth);
-        if (cells < least)
-        {
-          least = cells;
-          best = first;
-          bestShare = 0.1 * tenth;
-        }
+        least = cells;
+        best = first;
+        bestShare = 0.1 * tenth;
       }
     }
   }

@@ -28,7 +28,8 @@ void SurfaceTree::MakeLines(
     const LinePlacement placement(bound, domain, goal.Tolerance, this->Parallel);
     placement.Place(1.0, this->Line[0], this->Line[1]);
     const bool both = placement.FollowsDemand(0) && placement.FollowsDemand(1);
-    if (both || placement.FollowsDemand(0) || placement.FollowsDemand(1))
+    const bool several = this->Line[0].At.size() > 2 || this->Line[1].At.size() > 2;
+    if (several && (placement.FollowsDemand(0) || placement.FollowsDemand(1)))
     {
       placement.Place(this->BestMargin(bound, goal, both), this->Line[0], this->Line[1]);
     }
