@@ -144,6 +144,7 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
     }
     const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
     double error = 1e300;
+    Remainder rest(this->Second, box.A(), box.B(), facet);
     if (guaranteed)
     {
       // The bilinear interpolant of the heights is a quarter of that of the fourth corner at most.
@@ -155,11 +156,13 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
       {
         corners.AddSlope(facet, this->Normal[f[i]]);
       }
-      error = CombineError(corners, Remainder(this->Second, box.A(), box.B(), facet, twist), 1);
+      const Remainder whole(this->Second, box.A(), box.B(), facet, twist);
+      error = CombineError(corners, whole, 1);
+      rest.Height = facet.HasPlane() ? whole.Across : 1e300;
     }
     if (error > tolerance)
     {
-      error = std::min(error, this->DenseError(facet, diagonal, half, alone, box));
+      error = std::min(error, this->DenseError(facet, rest, diagonal, half, alone, box));
     }
     worst = std::max(worst, error);
     if (worst > tolerance || worst >= best)
@@ -186,12 +189,11 @@ bool CellError::LooksBack(const Facet& facet, const int* f) const
 }
 
 // The error by samples, as many as it takes to tell.
-double CellError::DenseError(
-  const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box)
+double CellError::DenseError(const Facet& facet, const Remainder& rest, int diagonal, int half,
+  bool alone, const ParameterBox& box)
 {
   const double tolerance = this->Goal.Tolerance;
   const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
-  const Remainder rest(this->Second, box.A(), box.B(), facet);
   for (int k = 2;;)
   {
     this->SampleGrid(box, k);

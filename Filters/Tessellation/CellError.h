@@ -31,8 +31,8 @@ private:
   bool IsCollapsed(const int* facet) const;
   void SampleGrid(const ParameterBox& box, int k);
   int CheaperAxis(const ParameterBox& box) const;
-  double DenseError(
-    const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box);
+  double DenseError(const Facet& facet, const Remainder& rest, int diagonal, int half, bool alone,
+    const ParameterBox& box);
   bool LooksBack(const Facet& facet, const int* f) const;
   bool IsBeyond(const Vec3& middle) const;
   bool ExceedsLimits(int& axis) const;

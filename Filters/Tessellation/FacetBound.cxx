@@ -144,7 +144,7 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
   const double across = share * rest.Across;
   const double along = share * rest.Along;
   const double both = std::hypot(across, along);
-  const double height = samples.Height + across;
+  const double height = std::min(rest.Height, samples.Height + across);
   const double outside = samples.Outside + along;
   const double inside = samples.Inside + along;
   // What slopes make of distances along the facet; where they are steep, distances count in full.
@@ -294,8 +294,9 @@ double FacetBound::Part(
       samples.Add(facet, this->Evaluator.Point(p[0], p[1]));
     }
   }
-  const Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
+  Remainder rest(this->Bound.Over(box), box.A(), box.B(), facet);
   double error = CombineError(samples, rest, 1);
+  rest.Height = facet.HasPlane() ? samples.Height + rest.Across : 1e300;
   if (error <= limit && this->Guaranteed)
   {
     return error;

@@ -69,6 +69,7 @@ struct Remainder
 {
   double Across = 0.0;
   double Along = 0.0;
+  double Height = 1e300; ///< Bound of the height that needs no samples, as soon as it is known.
   /// @param twist bound of the bilinear part of the height if it is known (two halves of a cell);
   /// negative: S_uv bounds it.
   Remainder(
