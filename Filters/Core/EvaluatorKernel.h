@@ -383,10 +383,11 @@ struct EvaluatorKernel
   struct GridPlan
   {
     int Width = 0;             ///< Numbers a column in Bases: values, then derivatives.
-    std::vector<int> Starts;   ///< First column of the net, one a u.
+    int First = 0;             ///< The column of the net that is column 0 of what follows.
+    std::vector<int> Starts;   ///< First column, one a u.
     std::vector<double> Bases; ///< One u after the other.
-    std::vector<int> Columns;  ///< The columns of the net that some u needs.
-    std::vector<double> Sums;  ///< 8 numbers a column of the net.
+    std::vector<int> Columns;  ///< The columns that some u needs.
+    std::vector<double> Sums;  ///< 8 numbers a column.
   };
 
   static GridPlan PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
@@ -396,20 +397,35 @@ struct EvaluatorKernel
     plan.Width = 2 * (p + 1);
     plan.Starts.resize(us.size());
     plan.Bases.resize(us.size() * plan.Width);
-    plan.Sums.resize(8 * std::size_t(e.View.Count[0]));
-    std::vector<bool> needed(e.View.Count[0], false);
+    int first = e.View.Count[0];
+    int last = 0;
     for (std::size_t i = 0; i < us.size(); ++i)
     {
       NURBS_FOR_DEGREE(p, Seek, (e, 0, us[i]))
       plan.Starts[i] = e.Span[0] - p;
+      first = std::min(first, plan.Starts[i]);
+      last = std::max(last, plan.Starts[i] + p + 1);
       double* basis = plan.Bases.data() + i * plan.Width;
       std::copy(e.Basis[0][0], e.Basis[0][0] + p + 1, basis);
       std::copy(e.Basis[0][1], e.Basis[0][1] + p + 1, basis + p + 1);
-      std::fill_n(needed.begin() + plan.Starts[i], p + 1, true);
     }
-    for (int i = 0; i < e.View.Count[0]; ++i)
+    // Only the columns between the first and the last one are looked at, and counted from the first.
+    plan.First = us.size() > 0 ? first : 0;
+    const std::size_t columns = us.size() > 0 ? std::size_t(last - first) : 0;
+    plan.Sums.resize(8 * columns);
+    std::vector<char> needed(columns, 0);
+    for (int& start : plan.Starts)
     {
-      plan.Columns.insert(plan.Columns.end(), needed[i] ? 1 : 0, i);
+      start -= plan.First;
+      std::fill_n(needed.begin() + start, p + 1, 1);
+    }
+    plan.Columns.reserve(columns);
+    for (std::size_t i = 0; i < columns; ++i)
+    {
+      if (needed[i])
+      {
+        plan.Columns.push_back(int(i));
+      }
     }
     return plan;
   }
@@ -421,7 +437,7 @@ struct EvaluatorKernel
     Seek<Q>(e, 1, v);
     const int q = Q >= 0 ? Q : e.View.Degree[1];
     const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
-    const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride;
+    const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride + 4 * plan.First;
     for (int i : plan.Columns)
     {
       SumColumn<Quad, Q>(

@@ -81,19 +81,17 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
         continue;
       }
       const Vec3& x = this->Sample[i + std::size_t(j) * (k + 1)];
-      samples.Add(facet, x);
+      int on = -1;
       for (int edge = 0; edge < 3; ++edge)
       {
         const int a = Facets[diagonal][half][edge];
         const int b = Facets[diagonal][half][(edge + 1) % 3];
-        const bool on = (a & 1) == (b & 1) ? i == (a & 1) * k
-          : (a >> 1) == (b >> 1)           ? j == (a >> 1) * k
-                                           : side == 0 && !alone;
-        if (on)
-        {
-          samples.AddEdge(facet, edge, x);
-        }
+        const bool here = (a & 1) == (b & 1) ? i == (a & 1) * k
+          : (a >> 1) == (b >> 1)             ? j == (a >> 1) * k
+                                             : side == 0 && !alone;
+        on = here ? edge : on;
       }
+      samples.Add(facet, x, on);
     }
   }
   return samples;

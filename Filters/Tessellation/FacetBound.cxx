@@ -91,7 +91,7 @@ double Facet::Across(int i, const Vec3& p) const
   return this->Plane ? this->Outward[i].dot(p - this->X[i]) / std::sqrt(this->Square[i]) : 0.0;
 }
 
-void SampleDistance::Add(const Facet& facet, const Vec3& p)
+void SampleDistance::Add(const Facet& facet, const Vec3& p, int edge)
 {
   double height;
   double outside;
@@ -99,16 +99,12 @@ void SampleDistance::Add(const Facet& facet, const Vec3& p)
   this->Height = std::max(this->Height, height);
   this->Outside = std::max(this->Outside, outside);
   this->Far = std::max(this->Far, std::sqrt(height * height + outside * outside));
-}
-
-void SampleDistance::AddEdge(const Facet& facet, int edge, const Vec3& p)
-{
-  double height;
-  double outside;
-  facet.Measure(p, height, outside);
-  const double inside = std::max(0.0, -facet.Across(edge, p));
-  this->Inside = std::max(this->Inside, inside);
-  this->Edge = std::max(this->Edge, std::sqrt(height * height + inside * inside));
+  if (edge >= 0)
+  {
+    const double inside = std::max(0.0, -facet.Across(edge, p));
+    this->Inside = std::max(this->Inside, inside);
+    this->Edge = std::max(this->Edge, std::sqrt(height * height + inside * inside));
+  }
 }
 
 void SampleDistance::AddSlope(const Facet& facet, const Vec3& normal)
@@ -143,13 +139,13 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
   const double share = 1.0 / (density * density);
   const double across = share * rest.Across;
   const double along = share * rest.Along;
-  const double both = std::hypot(across, along);
+  const double both = std::sqrt(across * across + along * along);
   const double height = std::min(rest.Height, samples.Height + across);
   const double outside = samples.Outside + along;
   const double inside = samples.Inside + along;
   // What slopes make of distances along the facet; where they are steep, distances count in full.
-  const double beyond = std::min({ std::hypot(height, outside), samples.Far + both,
-    height + DihedralSlack * samples.Slope * outside });
+  const double beyond = std::min({ std::sqrt(height * height + outside * outside),
+    samples.Far + both, height + DihedralSlack * samples.Slope * outside });
   const double within = height + SlopeSlack * samples.Slope * inside;
   return std::max(
     beyond, density == 1 ? std::min(beyond, within) : std::min(samples.Edge + both, within));
@@ -239,7 +235,7 @@ double FacetBound::EdgeError(
   for (double s : ts)
   {
     const Vec2 p = a + s * (b - a);
-    samples.AddEdge(facet, edge, this->Evaluator.Point(p[0], p[1]));
+    samples.Add(facet, this->Evaluator.Point(p[0], p[1]), edge);
   }
   if (!this->Guaranteed)
   {
@@ -353,12 +349,8 @@ void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[
   this->Evaluator.Batch(at, n, points, nullptr);
   for (int i = 0; i < n; ++i)
   {
-    const Vec3 x = Eigen::Map<const Vec3>(points + 3 * i);
-    samples.Add(facet, x);
-    if (edge[i] >= 0 && !t.Boundary[edge[i]])
-    {
-      samples.AddEdge(facet, edge[i], x);
-    }
+    const bool inner = edge[i] >= 0 && !t.Boundary[edge[i]];
+    samples.Add(facet, Eigen::Map<const Vec3>(points + 3 * i), inner ? edge[i] : -1);
   }
 }
 

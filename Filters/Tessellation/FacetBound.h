@@ -56,8 +56,8 @@ struct SampleDistance
   double Edge = 0.0; ///< Height and distance inside the edge together, of one sample on its curve.
   double Inside = 0.0; ///< That distance alone.
   double Slope = 0.0;  ///< Greatest slope of the surface against the facet at its corners.
-  void Add(const Facet& facet, const Vec3& p);
-  void AddEdge(const Facet& facet, int edge, const Vec3& p);
+  /// @param edge the edge whose curve the sample is on; -1: none, or one on the boundary.
+  void Add(const Facet& facet, const Vec3& p, int edge = -1);
   void AddSlope(const Facet& facet, const Vec3& normal);
   /// The error that the samples alone tell.
   double Largest() const;
