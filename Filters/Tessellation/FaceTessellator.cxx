@@ -541,11 +541,13 @@ private:
       const Vec2 d = (this->Mesh.UV[b] - this->Mesh.UV[a]).cwiseProduct(this->Scale);
       const Vec2 e = (p - this->Mesh.UV[a]).cwiseProduct(this->Scale);
       const double length = d.squaredNorm();
-      if (std::abs(d[0] * e[1] - d[1] * e[0]) >= 0.2 * length)
+      const bool boundary = this->IsSegment(a, b);
+      const double flat = boundary ? 0.2 : 0.05;
+      if (std::abs(d[0] * e[1] - d[1] * e[0]) >= flat * length)
       {
         continue;
       }
-      if (!this->IsSegment(a, b))
+      if (!boundary)
       {
         asked = this->WeakenWholeCells(0.5 * (this->Mesh.UV[a] + this->Mesh.UV[b])) || asked;
       }
