@@ -235,6 +235,8 @@ void BoundPatch(const std::vector<Vec4>& patch, int p, int q, double a, double b
   out[1].High += twist;
 }
 
+constexpr double Unbounded = 1e150; // What does not fit a float; squares of it fit a double.
+
 float Down(double x)
 {
   const float f = float(x);
@@ -567,8 +569,11 @@ SecondDerivatives SurfaceBound::Over(const ParameterBox& box) const
   SecondDerivatives out;
   for (int k = 0; k < 9; ++k)
   {
-    out.Center[k / 3][k % 3] = 0.5 * (double(all.High[k]) + double(all.Low[k]));
-    out.Radius[k / 3][k % 3] = 0.5 * (double(all.High[k]) - double(all.Low[k]));
+    const double low = all.Low[k];
+    const double high = all.High[k];
+    const bool finite = std::isfinite(low) && std::isfinite(high);
+    out.Center[k / 3][k % 3] = finite ? 0.5 * (high + low) : 0.0;
+    out.Radius[k / 3][k % 3] = finite ? 0.5 * (high - low) : Unbounded;
   }
   return out;
 }
