@@ -26,6 +26,7 @@
 #include <cmath>
 #include <exception>
 #include <future>
+#include <numeric>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSTessellator);
@@ -36,6 +37,14 @@ namespace
 
 constexpr int MaxNamedFaces = 8; // in the warning
 constexpr std::chrono::milliseconds ProgressInterval(20);
+constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
+constexpr std::int64_t QuickPoints = 512;
+
+std::int64_t ControlPoints(const nurbs::Model& model)
+{
+  return std::accumulate(model.Faces.begin(), model.Faces.end(), std::int64_t(0),
+    [](std::int64_t sum, const nurbs::Face& face) { return sum + face.Geometry.Size(); });
+}
 
 double Now()
 {
@@ -286,7 +295,8 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
 }
 
 // The work is done in another thread, whichever threads it is spread over there, so that observers
-// of the progress run in this one, are called while it lasts, and can abort it.
+// of the progress run in this one, are called while it lasts, and can abort it. What takes less time
+// than a thread needs to start is done here.
 bool vtkNURBSTessellator::Tessellate(Work& work)
 {
   std::atomic<double> progress{ 0.0 };
@@ -300,9 +310,11 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
     return !abort;
   };
   report();
-  auto result = std::async(std::launch::async,
+  const bool quick =
+    work.Model.Faces.size() <= QuickFaces && ControlPoints(work.Model) <= QuickPoints;
+  auto result = std::async(quick ? std::launch::deferred : std::launch::async,
     [&work]() { return nurbs::Tessellate(work.Model, work.FaceErrors, work.Options); });
-  while (result.wait_for(ProgressInterval) != std::future_status::ready)
+  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
   {
     report();
   }
