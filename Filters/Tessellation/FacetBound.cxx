@@ -239,7 +239,9 @@ double FacetBound::EdgeError(
   for (double s : ts)
   {
     const Vec2 p = a + s * (b - a);
-    samples.AddEdge(facet, edge, this->Evaluator.Point(p[0], p[1]));
+    const Vec3 x = this->Evaluator.Point(p[0], p[1]);
+    samples.Add(facet, x); // Slopes start from the curve's height.
+    samples.AddEdge(facet, edge, x);
   }
   if (!this->Guaranteed)
   {
