@@ -112,6 +112,38 @@ void Barycentric(int n, F&& use)
   }
 }
 
+/// The same by search: grids that narrow down on the nearest of their points.
+inline double SearchDistance(const nurbs::SurfaceView& s, const Vec3& x, ParameterBox box)
+{
+  constexpr int N = 24;
+  const ParameterBox all = box;
+  double best = 1e300;
+  for (int level = 0; level < 7; ++level)
+  {
+    Vec2 at(0.0, 0.0);
+    double least = 1e300;
+    for (int j = 0; j <= N; ++j)
+    {
+      for (int i = 0; i <= N; ++i)
+      {
+        const Vec2 p(box.U0 + box.A() * i / N, box.V0 + box.B() * j / N);
+        const double there = (nurbs::Evaluate(s, p[0], p[1]) - x).norm();
+        if (there < least)
+        {
+          least = there;
+          at = p;
+        }
+      }
+    }
+    best = std::min(best, least);
+    const double a = 3.0 * box.A() / N;
+    const double b = 3.0 * box.B() / N;
+    box = { std::max(all.U0, at[0] - a), std::min(all.U1, at[0] + a), std::max(all.V0, at[1] - b),
+      std::min(all.V1, at[1] + b) };
+  }
+  return best;
+}
+
 /// The point of the surface found next to x by Gauss and Newton from `uv`, within `box`: an upper
 /// bound of the distance.
 inline double SurfaceDistance(
