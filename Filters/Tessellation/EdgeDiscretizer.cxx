@@ -15,6 +15,9 @@ namespace
 {
 constexpr int VotePasses = 6;
 constexpr double CurveShare = 0.95; // Of the tolerance, for an edge without gaps.
+constexpr int GapSamples = 9;       // Steps between the places where gaps are sampled,
+constexpr double CleanShare = 1e-3; // gaps below this share of the tolerance need no closer look,
+constexpr int GapPasses = 3;        // which can be repeated as often as this.
 
 Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
 {
@@ -301,10 +304,31 @@ public:
   EdgePolyline Run(const std::vector<double>& extra)
   {
     this->ChooseCurve();
+    this->Subdivide(extra);
+    // Gaps where the vertices came to lie can be larger than those of the samples; each repetition
+    // leaves more room for them.
+    for (int pass = 0; this->Out.Gap > CleanShare * this->Tolerance && pass < GapPasses; ++pass)
+    {
+      const double gap = this->GapOfVertices();
+      const bool enough =
+        gap <= this->Out.Gap || this->Out.Error + this->Out.VertexGap + gap <= this->Tolerance;
+      this->Out.Gap = std::max(this->Out.Gap, gap);
+      if (enough)
+      {
+        break;
+      }
+      this->Subdivide(extra);
+    }
+    return std::move(this->Out);
+  }
+
+private:
+  // Parameters and points, by what the gaps known so far leave of the tolerance.
+  void Subdivide(const std::vector<double>& extra)
+  {
     std::vector<double>& ts = this->Out.Parameters;
-    ts = ApproximateCurve(this->Pieces, this->Goal(), this->Options.Curves, this->Out.Error);
-    std::vector<double> inner;
-    inner.swap(ts);
+    std::vector<double> inner =
+      ApproximateCurve(this->Pieces, this->Goal(), this->Options.Curves, this->Out.Error);
     ts = { this->Domain.Min, this->Domain.Max };
     this->Insert(inner);
     std::vector<double> forced = extra;
@@ -315,25 +339,49 @@ public:
     const Edge& edge = this->Data.Edges[this->EdgeIndex];
     if (edge.Vertex[0] == edge.Vertex[1] && ts.size() < 4)
     {
-      std::vector<double> thirds;
-      for (int k = 1; k < 4; ++k)
-      {
-        thirds.push_back(this->Domain.Min + this->Domain.Length() * k / 4.0);
-      }
-      this->Insert(thirds);
+      const double quarter = 0.25 * this->Domain.Length();
+      this->Insert({ this->Domain.Min + quarter, this->Domain.Min + 2.0 * quarter,
+        this->Domain.Min + 3.0 * quarter });
     }
     for (int pass = 0; this->Vote(pass < VotePasses); ++pass)
     {}
     this->Out.Error = std::max(this->Out.Error, this->ChordError);
     this->MakePoints();
-    return std::move(this->Out);
   }
 
-private:
-  // What the polyline may be off its curve: what the faces' own gaps from it leave.
+  double Gap() const { return this->Out.Gap + this->Out.VertexGap; }
+
+  // Like Out.Gap, measured at the polyline's parameters.
+  double GapOfVertices() const
+  {
+    double gap = 0.0;
+    for (double t : this->Out.Parameters)
+    {
+      const Vec3 x = this->At(t);
+      for (const EdgeUse& use : this->Uses)
+      {
+        gap = std::max(gap, (this->Lifted(use, t) - x).norm());
+      }
+    }
+    return gap;
+  }
+
+  // What the polyline may be off its curve: what gaps leave, should that be enough to be worth it.
   double Goal() const
   {
-    return std::max(0.3 * this->Tolerance, CurveShare * this->Tolerance - this->Out.Gap);
+    const double room = CurveShare * this->Tolerance - this->Gap();
+    return room > 0.1 * this->Tolerance ? room : 0.3 * this->Tolerance;
+  }
+
+  // Where gaps are sampled: both ends, and places that no regular knots share, for curves that were
+  // fitted to a trim curve have no gap at their knots.
+  double GapSample(int k) const
+  {
+    const double phase = 0.618034 * k - std::floor(0.618034 * k);
+    const double s = k == 0 ? 0.0
+      : k == GapSamples     ? 1.0
+                            : (k - 0.75 + 0.5 * phase) / (GapSamples - 1);
+    return this->Domain.Min + this->Domain.Length() * s;
   }
 
   Vec2 UV(const EdgeUse& use, double t) const
@@ -359,9 +407,9 @@ private:
     for (const EdgeUse& use : this->Uses)
     {
       size = std::max(size, this->Faces[use.Face].Bound->Size());
-      for (int k = 0; k <= 8 && (known || this->Uses.size() > 1); ++k)
+      for (int k = 0; k <= GapSamples && (known || this->Uses.size() > 1); ++k)
       {
-        const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+        const double t = this->GapSample(k);
         const Vec3 x = known ? Evaluate(edge.Geometry, t) : this->Lifted(this->Uses[0], t);
         gap = std::max(gap, (this->Lifted(use, t) - x).norm());
       }
@@ -373,15 +421,19 @@ private:
       gap = 0.0;
       for (std::size_t i = 1; i < this->Uses.size(); ++i)
       {
-        for (int k = 0; k <= 8; ++k)
+        for (int k = 0; k <= GapSamples; ++k)
         {
-          const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+          const double t = this->GapSample(k);
           gap =
             std::max(gap, (this->Lifted(this->Uses[i], t) - this->Lifted(this->Uses[0], t)).norm());
         }
       }
     }
     this->Out.Gap = this->OwnCurve ? std::max(gap, std::min(edge.Tolerance, 2.0 * gap)) : gap;
+    // The first and last chord end in the model's vertices, a little beside the curve.
+    this->Out.VertexGap =
+      std::max((this->At(this->Domain.Min) - this->Data.Vertices[edge.Vertex[0]]).norm(),
+        (this->At(this->Domain.Max) - this->Data.Vertices[edge.Vertex[1]]).norm());
     if (this->OwnCurve)
     {
       this->Pieces = ToBezier(edge.Geometry);
@@ -605,9 +657,6 @@ private:
     this->Out.Points.resize(ts.size());
     this->Out.Points.front() = this->Data.Vertices[edge.Vertex[0]];
     this->Out.Points.back() = this->Data.Vertices[edge.Vertex[1]];
-    // The first and last chord end in the model's vertices, a little beside the curve.
-    this->Out.Error += std::max((this->At(ts.front()) - this->Out.Points.front()).norm(),
-      (this->At(ts.back()) - this->Out.Points.back()).norm());
     for (std::size_t k = 1; k + 1 < ts.size(); ++k)
     {
       this->Out.Points[k] = this->At(ts[k]);

@@ -43,6 +43,7 @@ struct EdgePolyline
   std::vector<Vec3> Points;       ///< One a parameter; the ends are the model's vertices.
   double Error = 0.0;             ///< Bound of the curve's distance from the polyline.
   double Gap = 0.0;               ///< Largest distance of the edge's curve from its faces' own.
+  double VertexGap = 0.0;         ///< Largest distance of the vertices from the curve's ends.
   bool Degenerate = false;        ///< One point: a pole; faces place their own points on it.
 };
 

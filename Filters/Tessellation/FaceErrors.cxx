@@ -9,7 +9,10 @@ namespace nurbs
 
 namespace
 {
-constexpr double RoomBesideGap = 0.3; // Of the tolerance: what a triangle may add to a gap.
+// In tolerances: gaps from here on leave no room,
+constexpr double LargestGap = 0.85;
+// and this is what a triangle may add to one.
+constexpr double RoomBesideGap = 0.3;
 } // namespace
 
 double FaceErrors::GapOf(const int* t) const
@@ -24,7 +27,9 @@ double FaceErrors::GapOf(const int* t) const
 
 double FaceErrors::Limit(const int* t) const
 {
-  return std::max(this->Job.Tolerance, this->GapOf(t) + RoomBesideGap * this->Job.Tolerance);
+  const double gap = this->GapOf(t);
+  return gap <= LargestGap * this->Job.Tolerance ? this->Job.Tolerance
+                                                 : gap + RoomBesideGap * this->Job.Tolerance;
 }
 
 // The direction (0: u, 1: v) in which a pole's parameters run along the boundary; -1: no pole.

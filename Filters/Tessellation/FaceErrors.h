@@ -15,8 +15,8 @@ class FaceErrors : public FaceLoops
 protected:
   using FaceLoops::FaceLoops;
 
-  /// Largest error that lets a triangle pass. Where the model's own gap is near the tolerance or over
-  /// it smaller triangles can't make up for it.
+  /// Largest error that lets a triangle pass. Where the model's own gap leaves little of the
+  /// tolerance smaller triangles can't make up for it.
   double Limit(const int* t) const;
   /// True if two corners are one point (at a pole): no triangle comes out.
   bool IsCollapsed(const int* t) const;

@@ -619,7 +619,7 @@ private:
       {
         const EdgePolyline& edge = (*this->Job.Edges)[this->Segments[k]->Edge];
         const double ends = std::max(this->Gaps[k], this->Gaps[this->Next[k]]);
-        edges = std::max(edges, edge.Error + std::max(edge.Gap, ends));
+        edges = std::max(edges, edge.Error + std::max(edge.Gap + edge.VertexGap, ends));
       }
     }
     this->Mesh.CertifiedError = std::max(worst, edges);
