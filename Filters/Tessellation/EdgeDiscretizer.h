@@ -11,23 +11,8 @@
 #include "Model.h"
 #include "SurfaceTree.h"
 
-#include <deque>
-
 namespace nurbs
 {
-
-/// A model completed for tessellation: faces without loops have their natural boundary, and every
-/// trim curve has an edge of its own or a shared one.
-struct CompletedModel
-{
-  Model Data;
-  std::deque<Curve<2>> OwnCurves; ///< Storage of natural boundaries.
-  std::int64_t KnownEdges = 0;    ///< Edges of the given model; later ones are ours.
-};
-
-/// Completes a model. Opposite sides of a closed surface share an edge; sides that are a point get
-/// a degenerate edge.
-CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors);
 
 /// One place where a loop of a face runs along an edge.
 struct EdgeUse
