@@ -287,31 +287,34 @@ int CellError::CheaperAxis(const ParameterBox& box) const
   return u >= v ? 0 : 1;
 }
 
-bool CellError::ExceedsLimits(int& axis) const
+// Sides and diagonals against the limits; `axis` receives the direction to split.
+bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
 {
+  int longer = axis;
+  const auto exceeds = [&longer](double limit, const auto& apart) {
+    const double u = std::max(apart(0, 1), apart(2, 3));
+    const double v = std::max(apart(0, 2), apart(1, 3));
+    longer = u >= v ? 0 : 1;
+    return std::max({ u, v, apart(0, 3), apart(1, 2) }) > limit;
+  };
   const auto length = [&](int i, int j) { return (this->At[i] - this->At[j]).norm(); };
-  const double lu = std::max(length(0, 1), length(2, 3));
-  const double lv = std::max(length(0, 2), length(1, 3));
-  if (this->Goal.MaximumEdgeLength > 0.0 && std::hypot(lu, lv) > this->Goal.MaximumEdgeLength)
+  const auto angle = [&](int i, int j) { return Angle(this->Normal[i], this->Normal[j]); };
+  const double longest = this->Goal.MaximumEdgeLength;
+  bool over = longest > 0.0 && exceeds(longest, length);
+  if (!over && this->Goal.MaximumAngle > 0.0 &&
+    exceeds(SmallForAngles * this->Goal.Tolerance, length))
   {
-    axis = lu >= lv ? 0 : 1;
-    return true;
-  }
-  if (this->Goal.MaximumAngle > 0.0)
-  {
-    const auto angle = [&](int i, int j) {
-      return std::atan2(
-        this->Normal[i].cross(this->Normal[j]).norm(), this->Normal[i].dot(this->Normal[j]));
-    };
-    const double au = std::max(angle(0, 1), angle(2, 3));
-    const double av = std::max(angle(0, 2), angle(1, 3));
-    if (std::max({ au, av, angle(0, 3), angle(1, 2) }) > this->Goal.MaximumAngle)
+    if (!this->Bound.Creases(0).empty() || !this->Bound.Creases(1).empty())
     {
-      axis = au >= av ? 0 : 1;
-      return true;
+      // Normals of the cell's side of creases.
+      const double a = BesideCrease * box.A();
+      const double b = BesideCrease * box.B();
+      this->MakeCorners({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b });
     }
+    over = exceeds(this->Goal.MaximumAngle, angle);
   }
-  return false;
+  axis = over ? longer : axis;
+  return over;
 }
 
 int CellError::Examine(TreeLeaf& leaf)
@@ -321,7 +324,7 @@ int CellError::Examine(TreeLeaf& leaf)
   this->Second = this->Bound.Over(box);
   leaf.Error = this->Measure(leaf);
   int axis = leaf.Axis = this->CheaperAxis(box);
-  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(axis) ? -1 : axis;
+  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(box, axis) ? -1 : axis;
 }
 
 } // namespace nurbs

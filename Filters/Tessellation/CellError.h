@@ -35,7 +35,7 @@ private:
     const ParameterBox& box);
   bool LooksBack(const Facet& facet, const int* f) const;
   bool IsBeyond(const Vec3& middle) const;
-  bool ExceedsLimits(int& axis) const;
+  bool ExceedsLimits(const ParameterBox& box, int& axis);
 
   const SurfaceBound& Bound;
   const TreeGoal& Goal;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeDiscretizer.h"
 
+#include "CompletedModel.h"
 #include "FacetBound.h"
 #include "SurfaceEvaluator.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace nurbs
 {
@@ -15,204 +15,11 @@ namespace
 {
 constexpr int VotePasses = 6;
 constexpr double CurveShare = 0.95; // Of the tolerance, for an edge without gaps.
+constexpr int GapSamples = 9;       // Steps between the places where gaps are sampled,
+constexpr double CleanShare = 1e-3; // gaps below this share of the tolerance need no closer look,
+constexpr int GapPasses = 3;        // which can be repeated as often as this.
 
-Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
-{
-  const CurveView<2>& c = model.TrimCurves[curve].Geometry;
-  const Interval domain = c.Domain();
-  return Evaluate(c, end == 0 ? domain.Min : domain.Max);
-}
-
-// A straight trim curve from a to b over the parameter interval `domain`.
-TrimCurve StraightCurve(CompletedModel& out, const Vec2& a, const Vec2& b, const Interval& domain)
-{
-  Curve<2> line;
-  line.Degree = 1;
-  line.Knots = { domain.Min, domain.Min, domain.Max, domain.Max };
-  line.Points = { a, b };
-  line.Weights = { 1.0, 1.0 };
-  out.OwnCurves.push_back(std::move(line));
-  out.OwnCurves.back().Pack();
-  TrimCurve curve;
-  curve.Geometry = out.OwnCurves.back().View();
-  return curve;
-}
-
-std::int64_t AddEdge(CompletedModel& out, bool degenerate)
-{
-  static const double pole[4] = { 0.0, 0.0, 0.0, 1.0 };
-  static const double knots[2] = { 0.0, 1.0 };
-  Edge edge;
-  if (degenerate)
-  {
-    edge.Geometry.Degree = 0;
-    edge.Geometry.Count = 1;
-    edge.Geometry.Points = pole;
-    edge.Geometry.Knots = KnotView(knots, 2);
-  }
-  out.Data.Edges.push_back(edge);
-  return std::int64_t(out.Data.Edges.size()) - 1;
-}
-
-// The natural boundary, counter-clockwise: v = min, u = max, v = max, u = min.
-void AddNaturalBoundary(CompletedModel& out, Face& face)
-{
-  const SurfaceView& s = face.Geometry;
-  const Interval u = s.Domain(0);
-  const Interval v = s.Domain(1);
-  Box3 box;
-  for (std::int64_t k = 0; k < s.Size(); ++k)
-  {
-    box.extend(s.Point(k));
-  }
-  const double tolerance = 1e-9 * box.diagonal().norm();
-  const Vec2 c00(u.Min, v.Min);
-  const Vec2 c10(u.Max, v.Min);
-  const Vec2 c01(u.Min, v.Max);
-  const Vec2 c11(u.Max, v.Max);
-  TrimCurve sides[4] = { StraightCurve(out, c00, c10, u), StraightCurve(out, c10, c11, v),
-    StraightCurve(out, c01, c11, u), StraightCurve(out, c00, c01, v) };
-  sides[2].Reversed = sides[3].Reversed = true;
-  const int direction[4] = { 1, 0, 1, 0 };
-  const int end[4] = { 0, 1, 1, 0 };
-  for (int k = 0; k < 4; ++k)
-  {
-    const bool pole = IsDegenerateSide(s, direction[k], end[k], tolerance);
-    const bool closed = k >= 2 && !pole && IsClosed(s, direction[k], tolerance);
-    sides[k].Edge = closed ? sides[k == 2 ? 0 : 1].Edge : AddEdge(out, pole);
-  }
-  face.FirstLoop = std::int64_t(out.Data.Loops.size());
-  face.LoopCount = 1;
-  out.Data.Loops.push_back({ std::int64_t(out.Data.TrimCurves.size()), 4 });
-  out.Data.TrimCurves.insert(out.Data.TrimCurves.end(), sides, sides + 4);
-}
-
-struct UnionFind
-{
-  std::vector<std::int64_t> Parent;
-  explicit UnionFind(std::size_t n)
-    : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  std::int64_t Find(std::int64_t x)
-  {
-    while (this->Parent[x] != x)
-    {
-      x = this->Parent[x] = this->Parent[this->Parent[x]];
-    }
-    return x;
-  }
-  void Join(std::int64_t a, std::int64_t b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->Parent[std::max(a, b)] = std::min(a, b);
-  }
-};
-
-bool IsDegenerate(const Edge& edge)
-{
-  return edge.Geometry.Count == 1;
-}
-
-// Gives every edge end a vertex: ends that meet in a loop share it.
-void CompleteVertices(CompletedModel& out, const std::vector<std::string>& faceErrors)
-{
-  Model& model = out.Data;
-  const std::int64_t known = std::int64_t(model.Vertices.size());
-  const auto node = [&](std::int64_t edge, int end) {
-    const std::int64_t id = model.Edges[edge].Vertex[end];
-    return id >= 0 ? id : known + 2 * edge + end;
-  };
-  UnionFind sets(known + 2 * model.Edges.size());
-  std::vector<std::int64_t> first(known + 2 * model.Edges.size(), -1);
-  std::vector<Vec3> position(first.size());
-  for (std::size_t e = 0; e < model.Edges.size(); ++e)
-  {
-    if (IsDegenerate(model.Edges[e]))
-    {
-      sets.Join(node(e, 0), node(e, 1));
-    }
-  }
-  for (std::size_t f = 0; f < model.Faces.size(); ++f)
-  {
-    if (!faceErrors[f].empty())
-    {
-      continue;
-    }
-    const Face& face = model.Faces[f];
-    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
-    {
-      const TrimLoop& loop = model.Loops[l];
-      for (std::int64_t k = 0; k < loop.CurveCount; ++k)
-      {
-        const std::int64_t a = loop.FirstCurve + k;
-        const std::int64_t b = loop.FirstCurve + (k + 1) % loop.CurveCount;
-        const TrimCurve& ca = model.TrimCurves[a];
-        const TrimCurve& cb = model.TrimCurves[b];
-        const std::int64_t na = node(ca.Edge, ca.Reversed ? 0 : 1);
-        const std::int64_t nb = node(cb.Edge, cb.Reversed ? 1 : 0);
-        sets.Join(na, nb);
-        if (nb >= known && first[nb] < 0)
-        {
-          const Vec2 uv = CurveEnd(model, b, cb.Reversed ? 1 : 0);
-          first[nb] = 0;
-          position[nb] = Evaluate(face.Geometry, uv[0], uv[1]);
-        }
-        if (na >= known && first[na] < 0)
-        {
-          const Vec2 uv = CurveEnd(model, a, ca.Reversed ? 0 : 1);
-          first[na] = 0;
-          position[na] = Evaluate(face.Geometry, uv[0], uv[1]);
-        }
-      }
-    }
-  }
-  std::vector<std::int64_t> vertexOf(first.size(), -1);
-  for (std::size_t e = 0; e < model.Edges.size(); ++e)
-  {
-    for (int end = 0; end < 2; ++end)
-    {
-      const std::int64_t root = sets.Find(node(e, end));
-      if (root < known)
-      {
-        model.Edges[e].Vertex[end] = root;
-        continue;
-      }
-      if (vertexOf[root] < 0)
-      {
-        vertexOf[root] = std::int64_t(model.Vertices.size());
-        model.Vertices.push_back(first[root] < 0 ? Vec3(Vec3::Zero()) : position[root]);
-      }
-      model.Edges[e].Vertex[end] = vertexOf[root];
-    }
-  }
-}
 } // namespace
-
-CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors)
-{
-  CompletedModel out;
-  out.Data = model;
-  out.KnownEdges = std::int64_t(model.Edges.size());
-  for (std::size_t f = 0; f < model.Faces.size(); ++f)
-  {
-    if (faceErrors[f].empty() && model.Faces[f].LoopCount == 0)
-    {
-      AddNaturalBoundary(out, out.Data.Faces[f]);
-    }
-  }
-  for (TrimCurve& curve : out.Data.TrimCurves)
-  {
-    if (curve.Edge < 0)
-    {
-      curve.Edge = AddEdge(out, false);
-    }
-  }
-  CompleteVertices(out, faceErrors);
-  return out;
-}
 
 double TrimParameter(const TrimCurve& curve, const Interval& edge, double t)
 {
@@ -301,10 +108,31 @@ public:
   EdgePolyline Run(const std::vector<double>& extra)
   {
     this->ChooseCurve();
+    this->Subdivide(extra);
+    // Gaps where the vertices came to lie can be larger than those of the samples; each repetition
+    // leaves more room for them.
+    for (int pass = 0; this->Out.Gap > CleanShare * this->Tolerance && pass < GapPasses; ++pass)
+    {
+      const double gap = this->GapOfVertices();
+      const bool enough =
+        gap <= this->Out.Gap || this->Out.Error + this->Out.VertexGap + gap <= this->Tolerance;
+      this->Out.Gap = std::max(this->Out.Gap, gap);
+      if (enough)
+      {
+        break;
+      }
+      this->Subdivide(extra);
+    }
+    return std::move(this->Out);
+  }
+
+private:
+  // Parameters and points, by what the gaps known so far leave of the tolerance.
+  void Subdivide(const std::vector<double>& extra)
+  {
     std::vector<double>& ts = this->Out.Parameters;
-    ts = ApproximateCurve(this->Pieces, this->Goal(), this->Options.Curves, this->Out.Error);
-    std::vector<double> inner;
-    inner.swap(ts);
+    std::vector<double> inner =
+      ApproximateCurve(this->Pieces, this->Goal(), this->Options.Curves, this->Out.Error);
     ts = { this->Domain.Min, this->Domain.Max };
     this->Insert(inner);
     std::vector<double> forced = extra;
@@ -315,31 +143,58 @@ public:
     const Edge& edge = this->Data.Edges[this->EdgeIndex];
     if (edge.Vertex[0] == edge.Vertex[1] && ts.size() < 4)
     {
-      std::vector<double> thirds;
-      for (int k = 1; k < 4; ++k)
-      {
-        thirds.push_back(this->Domain.Min + this->Domain.Length() * k / 4.0);
-      }
-      this->Insert(thirds);
+      const double quarter = 0.25 * this->Domain.Length();
+      this->Insert({ this->Domain.Min + quarter, this->Domain.Min + 2.0 * quarter,
+        this->Domain.Min + 3.0 * quarter });
     }
     for (int pass = 0; this->Vote(pass < VotePasses); ++pass)
     {}
     this->Out.Error = std::max(this->Out.Error, this->ChordError);
     this->MakePoints();
-    return std::move(this->Out);
   }
 
-private:
-  // What the polyline may be off its curve: what the faces' own gaps from it leave.
+  double Gap() const { return this->Out.Gap + this->Out.VertexGap; }
+
+  // Like Out.Gap, measured at the polyline's parameters.
+  double GapOfVertices() const
+  {
+    double gap = 0.0;
+    for (double t : this->Out.Parameters)
+    {
+      const Vec3 x = this->At(t);
+      for (const EdgeUse& use : this->Uses)
+      {
+        gap = std::max(gap, (this->Lifted(use, t) - x).norm());
+      }
+    }
+    return gap;
+  }
+
+  // What the polyline may be off its curve: what gaps leave, should that be enough to be worth it.
   double Goal() const
   {
-    return std::max(0.3 * this->Tolerance, CurveShare * this->Tolerance - this->Out.Gap);
+    const double room = CurveShare * this->Tolerance - this->Gap();
+    return room > 0.1 * this->Tolerance ? room : 0.3 * this->Tolerance;
   }
 
+  // Where gaps are sampled: both ends, and places that no regular knots share, for curves that were
+  // fitted to a trim curve have no gap at their knots.
+  double GapSample(int k) const
+  {
+    const double phase = 0.618034 * k - std::floor(0.618034 * k);
+    const double s = k == 0 ? 0.0
+      : k == GapSamples     ? 1.0
+                            : (k - 0.75 + 0.5 * phase) / (GapSamples - 1);
+    return this->Domain.Min + this->Domain.Length() * s;
+  }
+
+  // Curves of dirty models leave the domain, beyond which a surface says nothing.
   Vec2 UV(const EdgeUse& use, double t) const
   {
     const TrimCurve& curve = this->Data.TrimCurves[use.Curve];
-    return Evaluate(curve.Geometry, TrimParameter(curve, this->Domain, t));
+    const SurfaceView& s = this->Data.Faces[use.Face].Geometry;
+    const Vec2 uv = Evaluate(curve.Geometry, TrimParameter(curve, this->Domain, t));
+    return { s.Domain(0).Clamp(uv[0]), s.Domain(1).Clamp(uv[1]) };
   }
 
   Vec3 Lifted(const EdgeUse& use, double t) const
@@ -359,9 +214,9 @@ private:
     for (const EdgeUse& use : this->Uses)
     {
       size = std::max(size, this->Faces[use.Face].Bound->Size());
-      for (int k = 0; k <= 8 && (known || this->Uses.size() > 1); ++k)
+      for (int k = 0; k <= GapSamples && (known || this->Uses.size() > 1); ++k)
       {
-        const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+        const double t = this->GapSample(k);
         const Vec3 x = known ? Evaluate(edge.Geometry, t) : this->Lifted(this->Uses[0], t);
         gap = std::max(gap, (this->Lifted(use, t) - x).norm());
       }
@@ -373,15 +228,19 @@ private:
       gap = 0.0;
       for (std::size_t i = 1; i < this->Uses.size(); ++i)
       {
-        for (int k = 0; k <= 8; ++k)
+        for (int k = 0; k <= GapSamples; ++k)
         {
-          const double t = this->Domain.Min + this->Domain.Length() * k / 8.0;
+          const double t = this->GapSample(k);
           gap =
             std::max(gap, (this->Lifted(this->Uses[i], t) - this->Lifted(this->Uses[0], t)).norm());
         }
       }
     }
     this->Out.Gap = this->OwnCurve ? std::max(gap, std::min(edge.Tolerance, 2.0 * gap)) : gap;
+    // The first and last chord end in the model's vertices, a little beside the curve.
+    this->Out.VertexGap =
+      std::max((this->At(this->Domain.Min) - this->Data.Vertices[edge.Vertex[0]]).norm(),
+        (this->At(this->Domain.Max) - this->Data.Vertices[edge.Vertex[1]]).norm());
     if (this->OwnCurve)
     {
       this->Pieces = ToBezier(edge.Geometry);
@@ -459,25 +318,29 @@ private:
     }
   }
 
+  // Parameters are not lengths: pieces can come out longer than others, and once more too long.
   void LimitLength()
   {
     const double limit = this->Options.MaximumEdgeLength;
-    if (!(limit > 0.0))
+    for (int pass = 0; limit > 0.0 && pass < VotePasses; ++pass)
     {
-      return;
-    }
-    const std::vector<double> ts = this->Out.Parameters;
-    std::vector<double> add;
-    for (std::size_t k = 0; k + 1 < ts.size(); ++k)
-    {
-      const double length = (this->At(ts[k + 1]) - this->At(ts[k])).norm();
-      const int n = int(std::min(1e6, std::ceil(length / limit)));
-      for (int i = 1; i < n; ++i)
+      const std::vector<double> ts = this->Out.Parameters;
+      std::vector<double> add;
+      for (std::size_t k = 0; k + 1 < ts.size(); ++k)
       {
-        add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);
+        const double length = (this->At(ts[k + 1]) - this->At(ts[k])).norm();
+        const int n = int(std::min(1e6, std::ceil(length / limit)));
+        for (int i = 1; i < n; ++i)
+        {
+          add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);
+        }
       }
+      if (add.empty())
+      {
+        return;
+      }
+      this->Insert(add);
     }
-    this->Insert(add);
   }
 
   Vec3 At(double t) const
@@ -558,6 +421,23 @@ private:
     return std::min(64, int(std::ceil(most - 1e-3)));
   }
 
+  // Segments that a chord needs so that the face's normals at its ends differ by no more than
+  // MaximumAngle; 1: fine. Ends on creases have the normals of the chord's side.
+  int AngleSegments(const EdgeUse& use, double t0, double t1) const
+  {
+    const double limit = this->Options.MaximumAngle;
+    if (!(limit > 0.0))
+    {
+      return 1;
+    }
+    const SurfaceView& s = this->Faces[use.Face].Bound->View();
+    const double inwards = BesideCrease * (t1 - t0);
+    const Vec2 a = this->UV(use, t0 + inwards);
+    const Vec2 b = this->UV(use, t1 - inwards);
+    const double angle = Angle(Normal(s, a[0], a[1]), Normal(s, b[0], b[1]));
+    return std::min(64, std::max(1, int(std::ceil(angle / limit * (1.0 - 1e-6)))));
+  }
+
   // Every face looks at every chord in its own domain; returns true if it had to add parameters,
   // which it may with `mayAdd` only.
   bool Vote(bool mayAdd)
@@ -581,6 +461,7 @@ private:
         int n = straight ? 1 : this->ChordSegments(use, a, b, error);
         this->ChordError = std::max(this->ChordError, error);
         n = std::max(n, this->DepthSegments(face, a, b));
+        n = std::max(n, this->AngleSegments(use, ts[k], ts[k + 1]));
         for (int i = 1; i < n; ++i)
         {
           add.push_back(ts[k] + (ts[k + 1] - ts[k]) * i / n);
@@ -605,9 +486,6 @@ private:
     this->Out.Points.resize(ts.size());
     this->Out.Points.front() = this->Data.Vertices[edge.Vertex[0]];
     this->Out.Points.back() = this->Data.Vertices[edge.Vertex[1]];
-    // The first and last chord end in the model's vertices, a little beside the curve.
-    this->Out.Error += std::max((this->At(ts.front()) - this->Out.Points.front()).norm(),
-      (this->At(ts.back()) - this->Out.Points.back()).norm());
     for (std::size_t k = 1; k + 1 < ts.size(); ++k)
     {
       this->Out.Points[k] = this->At(ts[k]);

@@ -11,23 +11,8 @@
 #include "Model.h"
 #include "SurfaceTree.h"
 
-#include <deque>
-
 namespace nurbs
 {
-
-/// A model completed for tessellation: faces without loops have their natural boundary, and every
-/// trim curve has an edge of its own or a shared one.
-struct CompletedModel
-{
-  Model Data;
-  std::deque<Curve<2>> OwnCurves; ///< Storage of natural boundaries.
-  std::int64_t KnownEdges = 0;    ///< Edges of the given model; later ones are ours.
-};
-
-/// Completes a model. Opposite sides of a closed surface share an edge; sides that are a point get
-/// a degenerate edge.
-CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors);
 
 /// One place where a loop of a face runs along an edge.
 struct EdgeUse
@@ -43,6 +28,7 @@ struct EdgePolyline
   std::vector<Vec3> Points;       ///< One a parameter; the ends are the model's vertices.
   double Error = 0.0;             ///< Bound of the curve's distance from the polyline.
   double Gap = 0.0;               ///< Largest distance of the edge's curve from its faces' own.
+  double VertexGap = 0.0;         ///< Largest distance of the vertices from the curve's ends.
   bool Degenerate = false;        ///< One point: a pole; faces place their own points on it.
 };
 

@@ -137,7 +137,7 @@ private:
     zone.TriangulateWhole(
       [&](FacetBound& bound, const CellZone::Triangle& t) {
         const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-        return !this->LooksBack(corner) &&
+        return !this->LooksBack(corner) && !this->ExceedsLimits(corner) &&
           this->TriangleError(bound, corner) <= this->Job.Tolerance;
       },
       FacetBound(*this->Job.Bound, this->Job.Options->Error), *this->Job.States,
@@ -359,7 +359,9 @@ private:
   void Refine(BorderTriangulation& border, std::vector<int>& vertexOf)
   {
     const std::size_t base = this->Mesh.Triangles.size();
-    const std::size_t budget = this->Mesh.UV.size() + 3 * vertexOf.size() + 1000;
+    const bool limits = this->HasLimits();
+    const std::size_t budget = this->Mesh.UV.size() +
+      (limits ? this->Job.Options->MaximumFaceTriangles / 2 : 3 * vertexOf.size() + 1000);
     std::vector<std::array<int, 3>> triangles;
     this->BorderErrors.clear();
     for (int pass = 0;; ++pass)
@@ -384,7 +386,7 @@ private:
         return;
       }
       const std::size_t before = this->Mesh.UV.size();
-      const bool splits = pass < 16 && before <= budget;
+      const bool splits = pass < (limits ? 32 : 16) && before <= budget;
       this->ExamineBorder(triangles, border, vertexOf, splits);
       if (this->Mesh.UV.size() == before)
       {
@@ -408,13 +410,15 @@ private:
     for (const auto& t : triangles)
     {
       const double error = this->BorderError(bound, t);
-      if (!splits || this->IsCollapsed(t.data()) || this->IsTiny(t.data()))
+      const bool exceeds = splits && this->ExceedsLimits(t.data());
+      if (!splits || this->IsCollapsed(t.data()) || (!exceeds && this->IsTiny(t.data())))
       {
         continue;
       }
       const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);
       const bool folded = facet.HasPlane() && this->IsFolded(t.data(), facet.Normal());
-      if ((folded && this->SplitSegments(t.data())) || (!folded && error <= this->Limit(t.data())))
+      const bool fails = folded || error > this->Limit(t.data());
+      if ((folded && this->SplitSegments(t.data())) || (!fails && !exceeds))
       {
         continue;
       }
@@ -426,8 +430,9 @@ private:
         const int a = t[i];
         const int b = t[(i + 1) % 3];
         const Vec2 d = (this->Mesh.UV[a] - this->Mesh.UV[b]).cwiseAbs();
-        const double length = facet.HasPlane() ? second.Bow(d[0], d[1], facet.Normal())
-                                               : d.cwiseProduct(this->Scale).norm();
+        const double length = !fails ? this->SideExcess(t.data(), i)
+          : facet.HasPlane()         ? second.Bow(d[0], d[1], facet.Normal())
+                                     : d.cwiseProduct(this->Scale).norm();
         if (length > longest && !border.IsWall(idOf[a], idOf[b]))
         {
           longest = length;
@@ -435,7 +440,7 @@ private:
         }
       }
       Vec2 p;
-      if (this->SplitsWall(t.data(), edge))
+      if (fails ? this->SplitsWall(t.data(), edge) : this->SplitsExceedingWall(t.data(), edge))
       {
         continue;
       }
@@ -460,18 +465,6 @@ private:
     }
   }
 
-  // Too small to gain from a split: the tolerance, or the gap of its boundary vertices, is as large.
-  bool IsTiny(const int* t) const
-  {
-    double longest = 0.0;
-    for (int i = 0; i < 3; ++i)
-    {
-      longest =
-        std::max(longest, (this->Mesh.Points[t[(i + 1) % 3]] - this->Mesh.Points[t[i]]).norm());
-    }
-    return longest < 0.5 * this->Job.Tolerance;
-  }
-
   // The error of a triangle of the border zone, computed once as long as the triangle stays.
   double BorderError(FacetBound& bound, const std::array<int, 3>& t)
   {
@@ -485,28 +478,6 @@ private:
     return found.first->second;
   }
 
-  ParameterBox BoxOf(const int* t) const
-  {
-    const Vec2& a = this->Mesh.UV[t[0]];
-    const Vec2& b = this->Mesh.UV[t[1]];
-    const Vec2& c = this->Mesh.UV[t[2]];
-    return { std::min({ a[0], b[0], c[0] }), std::max({ a[0], b[0], c[0] }),
-      std::min({ a[1], b[1], c[1] }), std::max({ a[1], b[1], c[1] }) };
-  }
-
-  // True if a triangle larger than the tolerance looks against the surface at all its corners.
-  bool LooksBack(const int* t) const
-  {
-    const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);
-    return facet.HasPlane() && this->IsFolded(t, facet.Normal()) && !this->IsTiny(t);
-  }
-
-  bool IsFolded(const int* t, const Vec3& n) const
-  {
-    return n.dot(this->Mesh.Normals[t[0]]) < 0.0 && n.dot(this->Mesh.Normals[t[1]]) < 0.0 &&
-      n.dot(this->Mesh.Normals[t[2]]) < 0.0;
-  }
-
   // Asks for vertices on a triangle's boundary segments; false: it has none that can be split.
   bool SplitSegments(const int* t)
   {
@@ -514,7 +485,7 @@ private:
     const auto length = [&](int i) {
       return (this->Mesh.Points[t[(i + 1) % 3]] - this->Mesh.Points[t[i]]).norm();
     };
-    const double longest = std::max({ length(0), length(1), length(2) });
+    const double longest = this->Longest(t);
     for (int i = 0; i < 3; ++i)
     {
       // A long inner edge may be what folds it.
@@ -558,6 +529,38 @@ private:
       }
     }
     return asked;
+  }
+
+  // Of a triangle over MaximumEdgeLength or MaximumAngle: if `edge`, of its inner sides the one most
+  // over them, is not, asks for vertices on its walls that are.
+  bool SplitsExceedingWall(const int* t, const std::pair<int, int>& edge)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::pair<int, int> side = std::minmax(t[i], t[(i + 1) % 3]);
+      if (side == edge && this->SideExcess(t, i) > 1.0)
+      {
+        return false;
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      const int a = t[i];
+      const int b = t[(i + 1) % 3];
+      if (!(this->SideExcess(t, i) > 1.0))
+      {
+        continue;
+      }
+      if (this->IsSegment(a, b))
+      {
+        this->RequestSplit(*this->Segments[a]);
+      }
+      else
+      {
+        this->WeakenWholeCells(0.5 * (this->Mesh.UV[a] + this->Mesh.UV[b]));
+      }
+    }
+    return true;
   }
 
   // Asks for finer cells where p lies on the side of a whole one; false: there is none, or it is too
@@ -604,7 +607,8 @@ private:
           double& known = (*this->Job.States)[-1 - leaf].Error;
           known = std::max(known, error[k]);
         }
-        if (error[k] > this->Job.Tolerance && leaf != NoLeaf)
+        if (leaf != NoLeaf &&
+          (error[k] > this->Job.Tolerance || this->ExceedsLimits(&this->Mesh.Triangles[3 * k])))
         {
           this->WeakLeaves.push_back(leaf >= 0 ? leaf : -1 - leaf);
         }
@@ -621,7 +625,7 @@ private:
       {
         const EdgePolyline& edge = (*this->Job.Edges)[this->Segments[k]->Edge];
         const double ends = std::max(this->Gaps[k], this->Gaps[this->Next[k]]);
-        edges = std::max(edges, edge.Error + std::max(edge.Gap, ends));
+        edges = std::max(edges, edge.Error + std::max(edge.Gap + edge.VertexGap, ends));
       }
     }
     this->Mesh.CertifiedError = std::max(worst, edges);

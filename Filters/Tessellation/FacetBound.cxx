@@ -28,6 +28,11 @@ ParameterBox BoxOf(const Vec2 (&uv)[3])
 }
 } // namespace
 
+double Angle(const Vec3& a, const Vec3& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
 Facet::Facet(const Vec3& x0, const Vec3& x1, const Vec3& x2)
   : X{ x0, x1, x2 }
 {

@@ -17,6 +17,16 @@
 namespace nurbs
 {
 
+/// The normal of a triangle's side of a crease is taken this share of the triangle's size beside it.
+inline constexpr double BesideCrease = 1e-6;
+
+/// In tolerances: where the surface is this small it needs no small angles. Else there would be no end at
+/// singular points, where the normal turns at once.
+inline constexpr double SmallForAngles = 0.01;
+
+/// Angle between two vectors, radians.
+double Angle(const Vec3& a, const Vec3& b);
+
 /// A triangle in space; it may be a line or a point.
 class Facet
 {

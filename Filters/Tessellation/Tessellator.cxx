@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tessellator.h"
 
+#include "CompletedModel.h"
 #include "EdgeDiscretizer.h"
 #include "FaceTessellator.h"
 #include "SurfaceTree.h"

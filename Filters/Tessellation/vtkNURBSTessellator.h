@@ -211,8 +211,9 @@ public:
 
   ///@{
   /**
-   * Longest edge of a triangle, in the unit of the points. Default 0: no limit. Holds for the cells
-   * of surfaces and for trimming edges; triangles that join the two may exceed it.
+   * Longest edge of a triangle, in the unit of the points. Default 0: no limit. Holds for every
+   * triangle; what remains: sides along a boundary that had to be repaired (status REPAIRED), and faces
+   * that reach MaximumFaceTriangles.
    */
   vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumEdgeLength, double);
@@ -221,8 +222,11 @@ public:
   ///@{
   /**
    * Largest angle in degrees between the surface's normals at the corners of a triangle. Default 0:
-   * no limit; up to 180. Surfaces are divided by it, trimming edges are not, so that triangles along
-   * an edge may exceed it.
+   * no limit; up to 180. Trimming edges are divided by it, too. Holds for every triangle, where a
+   * surface has a crease with the normals of the triangle's side (the array has one a point). What
+   * remains: triangles smaller than a hundredth of the tolerance (at poles and other places where the
+   * normal turns at once there would be no end), boundaries that had to be repaired (status REPAIRED),
+   * and faces that reach MaximumFaceTriangles.
    */
   vtkSetClampMacro(MaximumAngle, double, 0.0, 180.0);
   vtkGetMacro(MaximumAngle, double);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimCurveMethods.h"
 
+#include "CompletedModel.h"
 #include "EdgeDiscretizer.h"
 #include "Measuring.h"
 #include "TrimCurves.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meshes of vtkNURBSTessellator against what is known of the shapes: where they are open, which
 // area and volume they have, and how far triangles and surfaces are apart.
+#include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
@@ -11,10 +12,13 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStaticCellLocator.h"
 #include "vtkUnstructuredGrid.h"
+
+#include <vtksys/SystemTools.hxx>
 
 #include <gtest/gtest.h>
 
@@ -257,6 +261,117 @@ TEST(TessellatorMeshes, PlanarFacesHaveTheirAreas)
     }
     EXPECT_NEAR(area, source->GetPlateArea(), tolerance * length);
   }
+}
+
+/// The largest of all triangles: length of a side, and angle in degrees between normals at corners.
+struct Extremes
+{
+  double Length = 0.0, Angle = 0.0;
+
+  explicit Extremes(const std::vector<Triangle>& triangles)
+  {
+    for (const Triangle& triangle : triangles)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        const Corner& a = triangle.Corners[c];
+        const Corner& b = triangle.Corners[(c + 1) % 3];
+        this->Length = std::max(this->Length, (a.Point - b.Point).norm());
+        this->Angle = std::max(this->Angle,
+          std::atan2(a.Normal.cross(b.Normal).norm(), a.Normal.dot(b.Normal)) * 180 / Pi);
+      }
+    }
+  }
+};
+
+/// Compares every side and every pair of normals with the limits, one limit at a time and both.
+void ExpectLimits(vtkUnstructuredGrid* grid, double length, double angle)
+{
+  for (const double tolerance : { 1e-2, 1e-3 })
+  {
+    for (int limits = 1; limits <= 3; ++limits)
+    {
+      SCOPED_TRACE("limits " + std::to_string(limits) + " at " + std::to_string(tolerance));
+      Result free, limited;
+      free.Filter->SetTolerance(tolerance);
+      free.Run(grid);
+      limited.Filter->SetTolerance(tolerance);
+      limited.Filter->SetMaximumEdgeLength(limits & 1 ? length : 0.0);
+      limited.Filter->SetMaximumAngle(limits & 2 ? angle : 0.0);
+      limited.Run(grid);
+      const Extremes found(limited.Triangles);
+      if (limits & 1)
+      {
+        EXPECT_LE(found.Length, length * (1.0 + 1e-6));
+        EXPECT_GT(found.Length, 0.5 * length); // Not much finer than asked for.
+      }
+      if (limits & 2)
+      {
+        EXPECT_LE(found.Angle, angle + 1e-3);
+      }
+      EXPECT_GE(limited.Triangles.size(), free.Triangles.size());
+      EXPECT_LE(limited.Filter->GetNumberOfCappedFaces(), free.Filter->GetNumberOfCappedFaces());
+      std::size_t odd = 0;
+      const auto open = OpenSegments(limited.Lines);
+      for (const auto& [segment, uses] : EdgesOf(limited.Triangles))
+      {
+        odd += uses.first + uses.second == 1 && open.count(segment) == 0;
+      }
+      EXPECT_EQ(odd, 0u);
+    }
+  }
+}
+
+TEST(TessellatorLimits, HoldForEveryTriangleOfShapes)
+{
+  for (const int shape : { vtkNURBSShapeSource::SPHERE, vtkNURBSShapeSource::TORUS,
+         vtkNURBSShapeSource::CYLINDER, vtkNURBSShapeSource::CONE })
+  {
+    SCOPED_TRACE("shape " + std::to_string(shape));
+    ExpectLimits(Make(shape), 0.15, 8.0);
+  }
+}
+
+TEST(TessellatorLimits, HoldForEveryTriangleOfAPlateWithHoles)
+{
+  vtkNew<vtkNURBSShapeSource> source;
+  source->SetShapeToPlate();
+  source->SetPlateHoles(4, 3);
+  source->Update();
+  ExpectLimits(source->GetOutput(), 0.12, 10.0);
+}
+
+TEST(TessellatorLimits, HoldForEveryTriangleOfACarBody)
+{
+  vtkNew<vtkNURBSShapeSource> source;
+  source->SetShape(vtkNURBSShapeSource::CAR_BODY);
+  source->SetNumberOfPatches(50);
+  source->Update();
+  ExpectLimits(source->GetOutput(), 120.0, 4.0); // A car of 4.4 m.
+}
+
+TEST(TessellatorLimits, HoldForEveryTriangleOfACADFile)
+{
+  const std::string file = "/usr/share/opencascade/data/step/linkrods.step";
+  if (!vtksys::SystemTools::FileExists(file))
+  {
+    GTEST_SKIP() << file << " is not there (Debian package occt-misc)";
+  }
+  vtkNew<vtkNURBSCADReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  const auto models = vtkPartitionedDataSetCollection::SafeDownCast(reader->GetOutputDataObject(0));
+  ExpectLimits(vtkUnstructuredGrid::SafeDownCast(models->GetPartition(0, 0)), 0.5, 10.0);
+}
+
+/// The edges of the car body's holes are fitted to their trim curves: they miss these by up to a few
+/// tenths of the tolerance, but nowhere at the fit's knots. The polylines must leave room for that.
+TEST(TessellatorMeshes, EdgesLeaveRoomForTheGapsOfTheirFaces)
+{
+  Result result;
+  result.Run(Make(vtkNURBSShapeSource::CAR_BODY));
+  EXPECT_EQ(result.Filter->GetNumberOfCappedFaces(), 0);
+  EXPECT_LE(result.Filter->GetCertifiedError(), result.Filter->GetToleranceUsed());
 }
 
 /// Distance of a point from the closed form of a face.

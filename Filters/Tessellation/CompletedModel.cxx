@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CompletedModel.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nurbs
+{
+
+namespace
+{
+Vec2 CurveEnd(const Model& model, std::int64_t curve, int end)
+{
+  const CurveView<2>& c = model.TrimCurves[curve].Geometry;
+  const Interval domain = c.Domain();
+  return Evaluate(c, end == 0 ? domain.Min : domain.Max);
+}
+
+// A straight trim curve from a to b over the parameter interval `domain`.
+TrimCurve StraightCurve(CompletedModel& out, const Vec2& a, const Vec2& b, const Interval& domain)
+{
+  Curve<2> line;
+  line.Degree = 1;
+  line.Knots = { domain.Min, domain.Min, domain.Max, domain.Max };
+  line.Points = { a, b };
+  line.Weights = { 1.0, 1.0 };
+  out.OwnCurves.push_back(std::move(line));
+  out.OwnCurves.back().Pack();
+  TrimCurve curve;
+  curve.Geometry = out.OwnCurves.back().View();
+  return curve;
+}
+
+std::int64_t AddEdge(CompletedModel& out, bool degenerate)
+{
+  static const double pole[4] = { 0.0, 0.0, 0.0, 1.0 };
+  static const double knots[2] = { 0.0, 1.0 };
+  Edge edge;
+  if (degenerate)
+  {
+    edge.Geometry.Degree = 0;
+    edge.Geometry.Count = 1;
+    edge.Geometry.Points = pole;
+    edge.Geometry.Knots = KnotView(knots, 2);
+  }
+  out.Data.Edges.push_back(edge);
+  return std::int64_t(out.Data.Edges.size()) - 1;
+}
+
+// The natural boundary, counter-clockwise: v = min, u = max, v = max, u = min.
+void AddNaturalBoundary(CompletedModel& out, Face& face)
+{
+  const SurfaceView& s = face.Geometry;
+  const Interval u = s.Domain(0);
+  const Interval v = s.Domain(1);
+  Box3 box;
+  for (std::int64_t k = 0; k < s.Size(); ++k)
+  {
+    box.extend(s.Point(k));
+  }
+  const double tolerance = 1e-9 * box.diagonal().norm();
+  const Vec2 c00(u.Min, v.Min);
+  const Vec2 c10(u.Max, v.Min);
+  const Vec2 c01(u.Min, v.Max);
+  const Vec2 c11(u.Max, v.Max);
+  TrimCurve sides[4] = { StraightCurve(out, c00, c10, u), StraightCurve(out, c10, c11, v),
+    StraightCurve(out, c01, c11, u), StraightCurve(out, c00, c01, v) };
+  sides[2].Reversed = sides[3].Reversed = true;
+  const int direction[4] = { 1, 0, 1, 0 };
+  const int end[4] = { 0, 1, 1, 0 };
+  for (int k = 0; k < 4; ++k)
+  {
+    const bool pole = IsDegenerateSide(s, direction[k], end[k], tolerance);
+    const bool closed = k >= 2 && !pole && IsClosed(s, direction[k], tolerance);
+    sides[k].Edge = closed ? sides[k == 2 ? 0 : 1].Edge : AddEdge(out, pole);
+  }
+  face.FirstLoop = std::int64_t(out.Data.Loops.size());
+  face.LoopCount = 1;
+  out.Data.Loops.push_back({ std::int64_t(out.Data.TrimCurves.size()), 4 });
+  out.Data.TrimCurves.insert(out.Data.TrimCurves.end(), sides, sides + 4);
+}
+
+struct UnionFind
+{
+  std::vector<std::int64_t> Parent;
+  explicit UnionFind(std::size_t n)
+    : Parent(n)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+  }
+  std::int64_t Find(std::int64_t x)
+  {
+    while (this->Parent[x] != x)
+    {
+      x = this->Parent[x] = this->Parent[this->Parent[x]];
+    }
+    return x;
+  }
+  void Join(std::int64_t a, std::int64_t b)
+  {
+    a = this->Find(a);
+    b = this->Find(b);
+    this->Parent[std::max(a, b)] = std::min(a, b);
+  }
+};
+
+// Gives every edge end a vertex: ends that meet in a loop share it.
+void CompleteVertices(CompletedModel& out, const std::vector<std::string>& faceErrors)
+{
+  Model& model = out.Data;
+  const std::int64_t known = std::int64_t(model.Vertices.size());
+  const auto node = [&](std::int64_t edge, int end) {
+    const std::int64_t id = model.Edges[edge].Vertex[end];
+    return id >= 0 ? id : known + 2 * edge + end;
+  };
+  UnionFind sets(known + 2 * model.Edges.size());
+  std::vector<std::int64_t> first(known + 2 * model.Edges.size(), -1);
+  std::vector<Vec3> position(first.size());
+  for (std::size_t e = 0; e < model.Edges.size(); ++e)
+  {
+    if (IsDegenerate(model.Edges[e]))
+    {
+      sets.Join(node(e, 0), node(e, 1));
+    }
+  }
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    if (!faceErrors[f].empty())
+    {
+      continue;
+    }
+    const Face& face = model.Faces[f];
+    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const TrimLoop& loop = model.Loops[l];
+      for (std::int64_t k = 0; k < loop.CurveCount; ++k)
+      {
+        const std::int64_t a = loop.FirstCurve + k;
+        const std::int64_t b = loop.FirstCurve + (k + 1) % loop.CurveCount;
+        const TrimCurve& ca = model.TrimCurves[a];
+        const TrimCurve& cb = model.TrimCurves[b];
+        const std::int64_t na = node(ca.Edge, ca.Reversed ? 0 : 1);
+        const std::int64_t nb = node(cb.Edge, cb.Reversed ? 1 : 0);
+        sets.Join(na, nb);
+        if (nb >= known && first[nb] < 0)
+        {
+          const Vec2 uv = CurveEnd(model, b, cb.Reversed ? 1 : 0);
+          first[nb] = 0;
+          position[nb] = Evaluate(face.Geometry, uv[0], uv[1]);
+        }
+        if (na >= known && first[na] < 0)
+        {
+          const Vec2 uv = CurveEnd(model, a, ca.Reversed ? 0 : 1);
+          first[na] = 0;
+          position[na] = Evaluate(face.Geometry, uv[0], uv[1]);
+        }
+      }
+    }
+  }
+  std::vector<std::int64_t> vertexOf(first.size(), -1);
+  for (std::size_t e = 0; e < model.Edges.size(); ++e)
+  {
+    for (int end = 0; end < 2; ++end)
+    {
+      const std::int64_t root = sets.Find(node(e, end));
+      if (root < known)
+      {
+        model.Edges[e].Vertex[end] = root;
+        continue;
+      }
+      if (vertexOf[root] < 0)
+      {
+        vertexOf[root] = std::int64_t(model.Vertices.size());
+        model.Vertices.push_back(first[root] < 0 ? Vec3(Vec3::Zero()) : position[root]);
+      }
+      model.Edges[e].Vertex[end] = vertexOf[root];
+    }
+  }
+}
+} // namespace
+
+CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors)
+{
+  CompletedModel out;
+  out.Data = model;
+  out.KnownEdges = std::int64_t(model.Edges.size());
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    if (faceErrors[f].empty() && model.Faces[f].LoopCount == 0)
+    {
+      AddNaturalBoundary(out, out.Data.Faces[f]);
+    }
+  }
+  for (TrimCurve& curve : out.Data.TrimCurves)
+  {
+    if (curve.Edge < 0)
+    {
+      curve.Edge = AddEdge(out, false);
+    }
+  }
+  CompleteVertices(out, faceErrors);
+  return out;
+}
+
+} // namespace nurbs
