@@ -104,7 +104,6 @@ private:
   }
 
   // --- Step 2: planar faces: the loops in their plane -------------------------------------------
-
   bool Planar(const TrimRegion& region)
   {
     this->Scale = Vec2(1.0, 1.0);
@@ -440,7 +439,8 @@ private:
         }
       }
       Vec2 p;
-      if (fails ? this->SplitsWall(t.data(), edge) : this->SplitsExceedingWall(t.data(), edge))
+      if (fails ? this->SplitsWall(t.data(), edge, folded ? 0.5 : 0.05)
+                : this->SplitsExceedingWall(t.data(), edge))
       {
         continue;
       }
@@ -498,8 +498,8 @@ private:
   }
 
   // A split of `edge` would leave a sliver at one of the triangle's boundary segments or at a side of a
-  // whole cell: asks for a vertex there instead.
-  bool SplitsWall(const int* t, const std::pair<int, int>& edge)
+  // whole cell (flatter than `flat`): asks for a vertex there instead.
+  bool SplitsWall(const int* t, const std::pair<int, int>& edge, double flat)
   {
     bool asked = false;
     const Vec2 p = edge.first < 0
@@ -513,8 +513,7 @@ private:
       const Vec2 e = (p - this->Mesh.UV[a]).cwiseProduct(this->Scale);
       const double length = d.squaredNorm();
       const bool boundary = this->IsSegment(a, b);
-      const double flat = boundary ? 0.2 : 0.05;
-      if (std::abs(d[0] * e[1] - d[1] * e[0]) >= flat * length)
+      if (std::abs(d[0] * e[1] - d[1] * e[0]) >= (boundary ? 0.2 : flat) * length)
       {
         continue;
       }
@@ -563,8 +562,7 @@ private:
     return true;
   }
 
-  // Asks for finer cells where p lies on the side of a whole one; false: there is none, or it is too
-  // late.
+  // Asks for finer cells where p is on the side of a whole one; false: there is none, or too late.
   bool WeakenWholeCells(const Vec2& p)
   {
     bool found = false;
@@ -607,8 +605,9 @@ private:
           double& known = (*this->Job.States)[-1 - leaf].Error;
           known = std::max(known, error[k]);
         }
+        const int* t = &this->Mesh.Triangles[3 * k];
         if (leaf != NoLeaf &&
-          (error[k] > this->Job.Tolerance || this->ExceedsLimits(&this->Mesh.Triangles[3 * k])))
+          (error[k] > this->Job.Tolerance || this->ExceedsLimits(t) || this->LooksBack(t)))
         {
           this->WeakLeaves.push_back(leaf >= 0 ? leaf : -1 - leaf);
         }

@@ -252,15 +252,17 @@ private:
       return;
     }
     const auto uv = this->CornerUV(t);
-    // Against the mean of the face's normals at its middle and corners: on a rough face the surface
-    // may be steep at one place of a triangle that is within the tolerance everywhere.
+    // Against the face's normal at its middle and against the mean of those at its corners: on a rough
+    // face the surface may be steep at one place of a triangle that is within the tolerance.
     const Foot foot = this->Surface.Project(a + (ab + ac) / 3.0, (uv[0] + uv[1] + uv[2]) / 3.0);
-    Vec3 outer = this->Surface.OuterNormal(foot.UV);
+    const Vec3 middle = this->Surface.OuterNormal(foot.UV);
+    Vec3 corners = Vec3::Zero();
     for (const Vec2& corner : uv)
     {
-      outer += this->Surface.OuterNormal(corner);
+      corners += this->Surface.OuterNormal(corner);
     }
-    this->Report.Folded += normal.normalized().dot(outer) < -1e-6;
+    const Vec3 n = normal.normalized();
+    this->Report.Folded += n.dot(middle) < -1e-6 && n.dot(corners) < -1e-6;
   }
 
   void MeasureMesh()
