@@ -283,14 +283,48 @@ void Converter::MeasureSize()
   this->Table.Size = box.diagonal().norm();
 }
 
-/// Edge tolerances, and vertices in the middle of where their faces and edges see them.
+/// Where a vertex is that faces and edges see at `ends`: where more than half of them agree if they do,
+/// by a tenth of what all differ, so that one edge that misses its vertex doesn't spoil the other edges'
+/// faces; else in the middle, which is the nearest to all.
+Vec3 VertexPlace(const std::vector<Vec3>& ends)
+{
+  Box3 box;
+  for (const Vec3& p : ends)
+  {
+    box.extend(p);
+  }
+  const double near = 0.05 * box.diagonal().norm();
+  std::size_t most = 0;
+  Box3 agreed;
+  for (const Vec3& p : ends)
+  {
+    std::size_t count = 0;
+    Box3 around;
+    for (const Vec3& q : ends)
+    {
+      if ((q - p).norm() <= near)
+      {
+        ++count;
+        around.extend(q);
+      }
+    }
+    if (count > most)
+    {
+      most = count;
+      agreed = around;
+    }
+  }
+  return 2 * most > ends.size() ? Vec3(agreed.center()) : Vec3(box.center());
+}
+
+/// Edge tolerances, and vertices where their faces and edges see them.
 void Converter::Gather(std::vector<FaceResult>& faces)
 {
-  std::vector<Box3> boxes(this->Result.Vertices.size());
+  std::vector<std::vector<Vec3>> seen(this->Result.Vertices.size());
   auto extend = [&](std::int64_t vertex, const Vec3& p) {
     if (vertex >= 0)
     {
-      boxes[static_cast<std::size_t>(vertex)].extend(p);
+      seen[static_cast<std::size_t>(vertex)].push_back(p);
     }
   };
   for (FaceResult& face : faces)
@@ -321,11 +355,11 @@ void Converter::Gather(std::vector<FaceResult>& faces)
       extend(edge.Vertex[1], edge.Geometry.Points.back());
     }
   }
-  for (std::size_t i = 0; i < boxes.size(); ++i)
+  for (std::size_t i = 0; i < seen.size(); ++i)
   {
-    if (!boxes[i].isEmpty())
+    if (!seen[i].empty())
     {
-      this->Result.Vertices[i] = boxes[i].center();
+      this->Result.Vertices[i] = VertexPlace(seen[i]);
     }
   }
   for (const FaceResult& face : faces)

@@ -29,4 +29,10 @@ inline bool IsDegenerate(const Edge& edge)
 /// a degenerate edge.
 CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors);
 
+/// Makes one vertex of the ends of edges that are too short to matter, and the edge a degenerate one.
+/// Neighbouring short edges become points only as far as they are so short together; a loop keeps two
+/// longer ones.
+/// @param shortest one length an edge; longer edges stay.
+void CollapseShortEdges(CompletedModel& model, const std::vector<double>& shortest);
+
 } // namespace nurbs

@@ -15,6 +15,7 @@ namespace
 {
 constexpr int VotePasses = 6;
 constexpr double CurveShare = 0.95; // Of the tolerance, for an edge without gaps.
+constexpr double NearVertex = 0.01; // In tolerances.
 constexpr int GapSamples = 9;       // Steps between the places where gaps are sampled,
 constexpr double CleanShare = 1e-3; // gaps below this share of the tolerance need no closer look,
 constexpr int GapPasses = 3;        // which can be repeated as often as this.
@@ -137,6 +138,7 @@ private:
     this->Insert(inner);
     std::vector<double> forced = extra;
     this->CreaseCrossings(forced);
+    this->DropNearVertices(forced, extra.size());
     std::sort(forced.begin(), forced.end());
     this->Insert(forced);
     this->LimitLength();
@@ -316,6 +318,22 @@ private:
         }
       }
     }
+  }
+
+  // Of `forced`, from `first` on, leaves out what a vertex is so near to that faces put it on the crease.
+  void DropNearVertices(std::vector<double>& forced, std::size_t first) const
+  {
+    const std::vector<double>& ts = this->Out.Parameters;
+    const auto near = [&](double t) {
+      const auto after = std::lower_bound(ts.begin(), ts.end(), t);
+      const Vec3 x = this->At(t);
+      const auto isNear = [&](double vertex) {
+        return (this->At(vertex) - x).norm() < NearVertex * this->Tolerance;
+      };
+      return (after != ts.end() && isNear(*after)) || (after != ts.begin() && isNear(*(after - 1)));
+    };
+    forced.erase(
+      std::remove_if(forced.begin() + std::ptrdiff_t(first), forced.end(), near), forced.end());
   }
 
   // Parameters are not lengths: pieces can come out longer than others, and once more too long.

@@ -115,6 +115,12 @@ bool FaceErrors::IsTiny(const int* t) const
   return this->Longest(t) < 0.5 * this->Job.Tolerance;
 }
 
+bool FaceErrors::IsGap(const int* t) const
+{
+  const Vec3* x = this->Mesh.Points.data();
+  return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() <= this->GapOf(t) * this->Longest(t);
+}
+
 bool FaceErrors::LooksBack(const int* t) const
 {
   const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);

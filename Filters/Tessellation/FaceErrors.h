@@ -31,6 +31,8 @@ protected:
   bool ExceedsLimits(const int* t) const;
   /// Too small to gain from a split: the tolerance, or the gap of its boundary vertices, is as large.
   bool IsTiny(const int* t) const;
+  /// True if a corner is as far from the surface as the triangle is high: it can look anywhere.
+  bool IsGap(const int* t) const;
   /// True if a triangle larger than the tolerance looks against the surface at all its corners.
   bool LooksBack(const int* t) const;
   /// True if the surface's normals at all corners are against n.

@@ -13,7 +13,8 @@ namespace nurbs
 
 namespace
 {
-constexpr double LargeGap = 1.0; // Of trim curves from their edge, in tolerances.
+constexpr double LargeGap = 1.0;   // Of trim curves from their edge, in tolerances.
+constexpr double ShortPole = 1e-4; // Of the domain.
 } // namespace
 
 FaceLoops::FaceLoops(const FaceJob& job, std::vector<SplitRequest>& requests)
@@ -75,6 +76,10 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
     part[k].T0 = ts[i];
     part[k].T1 = k + 1 < n ? ts[curve.Reversed ? i - 1 : i + 1] : ts[i];
   }
+  if (edge.Degenerate && this->IsShort(part.front().UV, part.back().UV))
+  {
+    return; // The curves beside it meet in one corner.
+  }
   if (edge.Gap > LargeGap * this->Job.Tolerance && this->Job.Tree && !this->OnCurves)
   {
     this->MoveToFeet(part);
@@ -89,6 +94,14 @@ void FaceLoops::AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loo
     loop.back().Edge = -1; // A jump along a pole or from side to side of a closed surface.
   }
   loop.insert(loop.end(), part.begin(), part.end());
+}
+
+// Too short in (u, v) to be a pole's side.
+bool FaceLoops::IsShort(const Vec2& a, const Vec2& b) const
+{
+  const SurfaceView& s = this->TheFace.Geometry;
+  return std::abs(a[0] - b[0]) <= ShortPole * s.Domain(0).Length() &&
+    std::abs(a[1] - b[1]) <= ShortPole * s.Domain(1).Length();
 }
 
 // Where a face's trim curve misses the edge by as much as the tolerance, vertices are moved in (u, v)

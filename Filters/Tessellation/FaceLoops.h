@@ -43,6 +43,7 @@ protected:
 private:
   void AppendCurve(std::int64_t index, std::vector<BoundaryVertex>& loop);
   void PoleParameters(const TrimCurve& curve, const Interval& domain, std::vector<double>& ts);
+  bool IsShort(const Vec2& a, const Vec2& b) const;
   void SnapLoop(std::vector<BoundaryVertex>& loop) const;
   Vec2 Clamp(const Vec2& uv, bool snap) const;
   void MoveToFeet(std::vector<BoundaryVertex>& part);

@@ -415,7 +415,7 @@ private:
         continue;
       }
       const Facet facet(this->Mesh.Points[t[0]], this->Mesh.Points[t[1]], this->Mesh.Points[t[2]]);
-      const bool folded = facet.HasPlane() && this->IsFolded(t.data(), facet.Normal());
+      const bool folded = this->IsFolded(t.data(), facet.Normal()) && !this->IsGap(t.data());
       const bool fails = folded || error > this->Limit(t.data());
       if ((folded && this->SplitSegments(t.data())) || (!fails && !exceeds))
       {

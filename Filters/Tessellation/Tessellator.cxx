@@ -17,6 +17,7 @@ namespace nurbs
 namespace
 {
 constexpr int MaximumPasses = 8;
+constexpr double ShortEdge = 0.01; // In tolerances.
 
 class ModelTessellator
 {
@@ -39,6 +40,7 @@ public:
     this->States.resize(faces);
     this->Snaps.assign(faces, Vec2(0.0, 0.0));
     this->FindUses();
+    this->CollapseEdges();
     this->OrderFaces();
 
     // Step 1: bounds and a tree for every surface.
@@ -92,6 +94,22 @@ private:
         }
       }
     }
+  }
+
+  // Edges shorter than a hundredth of the tolerance become points: beside them, where the curves of
+  // models are no more exact, only slivers would come out, looking any way.
+  void CollapseEdges()
+  {
+    std::vector<double> shortest(this->Data.Edges.size(), 0.0);
+    for (std::size_t e = 0; e < shortest.size(); ++e)
+    {
+      for (const EdgeUse& use : this->Uses[e])
+      {
+        const double length = ShortEdge * this->ToleranceOf(use.Face);
+        shortest[e] = shortest[e] > 0.0 ? std::min(shortest[e], length) : length;
+      }
+    }
+    CollapseShortEdges(this->Completed, shortest);
   }
 
   // Large surfaces are worked on by all threads at once, the others one a thread.

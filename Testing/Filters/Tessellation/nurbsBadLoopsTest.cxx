@@ -260,6 +260,82 @@ TEST_P(BadLoops, StayClosedAlthoughOneFaceIsRepaired)
   }
 }
 
+/// An edge much shorter than the tolerance, whose ends are in the other order on one of its faces: it
+/// becomes a point, the same for both faces, instead of a sliver that looks backwards.
+TEST_P(BadLoops, MakePointsOfShortEdges)
+{
+  const nurbs::Surface sheet = Sheet(GetParam());
+  const std::vector<Vec2> corners = { Vec2(1, 1), Vec2(9, 1), Vec2(9, 9), Vec2(8.99996, 9),
+    Vec2(1, 9) };
+  const int n = int(corners.size());
+  nurbs::ModelBuilder builder;
+  for (const Vec2& p : corners)
+  {
+    builder.AddVertex(nurbs::Evaluate(sheet.View(), p[0], p[1]));
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    const Vec2 from = corners[i];
+    const Vec2 to = corners[(i + 1) % n];
+    const auto at = [&](double t) {
+      const Vec2 p = from + t * (to - from);
+      return nurbs::Evaluate(sheet.View(), p[0], p[1]);
+    };
+    nurbs::Curve<3> edge; // Over a straight line the sheet is a parabola.
+    edge.Degree = 2;
+    edge.Knots = { 0, 0, 0, 1, 1, 1 };
+    edge.Points = { at(0), Vec3(2.0 * at(0.5) - 0.5 * at(0) - 0.5 * at(1)), at(1) };
+    edge.Weights = { 1, 1, 1 };
+    edge.Pack();
+    builder.AddEdge(edge.View(), 0.0, i, (i + 1) % n);
+  }
+  for (const bool reversed : { false, true })
+  {
+    std::vector<Vec2> seen = corners;
+    if (reversed)
+    {
+      seen[3] = Vec2(9.00004, 9); // Beyond the corner.
+    }
+    nurbs::FaceAttributes attributes;
+    attributes.Reversed = reversed;
+    builder.BeginFace(sheet.View(), attributes);
+    builder.BeginLoop();
+    for (int i = 0; i < n; ++i)
+    {
+      nurbs::Curve<2> line;
+      line.Knots = { 0, 0, 1, 1 };
+      line.Points = { seen[i], seen[(i + 1) % n] };
+      line.Weights = { 1, 1 };
+      line.Pack();
+      builder.AddTrimCurve(line.View(), i, false);
+    }
+  }
+  const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
+  nurbs::TessellatorOptions options;
+  options.Tolerance = 0.01;
+  const nurbs::TessellationResult result =
+    nurbs::Tessellate(assembled.Model, assembled.FaceErrors, options);
+  ASSERT_EQ(result.Meshes.size(), 2u);
+  for (const FaceMesh& mesh : result.Meshes)
+  {
+    EXPECT_EQ(mesh.Status, FaceStatus::Ok) << mesh.Message;
+    EXPECT_LE(mesh.CertifiedError, 0.01);
+    int corner = 0;
+    for (const Vec3& x : mesh.Points)
+    {
+      corner += (x.head<2>() - Vec2(9, 9)).norm() < 1e-3;
+    }
+    EXPECT_EQ(corner, 1);
+    for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+    {
+      const int* c = &mesh.Triangles[t];
+      const Vec3 normal =
+        (mesh.Points[c[1]] - mesh.Points[c[0]]).cross(mesh.Points[c[2]] - mesh.Points[c[0]]);
+      EXPECT_GT(normal.dot(mesh.Normals[c[0]]), 0.0);
+    }
+  }
+}
+
 /// The corners of a mesh are the model's vertices; how far these are from the ends of the curves is
 /// part of the error, in a plane, too.
 TEST(BadLoopsInAPlane, CountHowFarVerticesAreFromTheirCurves)
