@@ -40,6 +40,10 @@ void CellError::MakeCorners(const ParameterBox& box)
   const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
     Vec2(box.U1, box.V1) };
   this->Evaluator.Batch(uv, 4, this->At[0].data(), this->Normal[0].data());
+  this->Crease[0] = this->Bound.IsCrease(0, box.U0);
+  this->Crease[1] = this->Bound.IsCrease(0, box.U1);
+  this->Crease[2] = this->Bound.IsCrease(1, box.V0);
+  this->Crease[3] = this->Bound.IsCrease(1, box.V1);
 }
 
 // Samples of the cell, k in each direction.
@@ -62,15 +66,32 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
     ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(), nullptr);
 }
 
+// True if the side between two corners is a crease.
+bool CellError::IsCrease(int a, int b) const
+{
+  return ((a & 1) == (b & 1) && this->Crease[a & 1]) ||
+    ((a >> 1) == (b >> 1) && this->Crease[2 + (a >> 1)]);
+}
+
+// What the corners of a facet tell.
+void CellError::AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    samples.AddSlope(facet, this->Normal[f[i]]);
+    if (this->IsCrease(f[i], f[(i + 1) % 3]))
+    {
+      samples.AddCrease(facet, i, this->At[f[i]]);
+    }
+  }
+}
+
 // The samples in one half of the cell, or (`alone`) all of them, against its facet.
 SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bool alone) const
 {
   const int k = this->Density;
   SampleDistance samples;
-  for (int corner : Facets[diagonal][half])
-  {
-    samples.AddSlope(facet, this->Normal[corner]);
-  }
+  this->AddCorners(facet, Facets[diagonal][half], samples);
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i <= k; ++i)
@@ -92,6 +113,10 @@ SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bo
         if (on)
         {
           samples.AddEdge(facet, edge, x);
+          if (this->IsCrease(a, b))
+          {
+            samples.AddCrease(facet, edge, x);
+          }
         }
       }
     }
@@ -151,10 +176,7 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
         ? -1.0
         : 0.25 * std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
       SampleDistance corners;
-      for (int i = 0; i < 3; ++i)
-      {
-        corners.AddSlope(facet, this->Normal[f[i]]);
-      }
+      this->AddCorners(facet, f, corners);
       error = CombineError(corners, Remainder(this->Second, box.A(), box.B(), facet, twist), 1);
     }
     if (error > tolerance)

@@ -31,6 +31,8 @@ private:
   bool IsCollapsed(const int* facet) const;
   void SampleGrid(const ParameterBox& box, int k);
   int CheaperAxis(const ParameterBox& box) const;
+  bool IsCrease(int a, int b) const;
+  void AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const;
   double DenseError(
     const Facet& facet, int diagonal, int half, bool alone, const ParameterBox& box);
   bool LooksBack(const Facet& facet, const int* f) const;
@@ -43,6 +45,7 @@ private:
   SecondDerivatives Second;
   Vec3 At[4];                                               ///< Corners (0,0), (1,0), (0,1), (1,1),
   Vec3 Normal[4];                                           ///< and normals there.
+  bool Crease[4] = { false, false, false, false };          ///< Sides that are: u0, u1, v0, v1.
   Vec3 Sample[(DensestSamples + 1) * (DensestSamples + 1)]; ///< (Density + 1)^2, u fastest.
   int Density = 0;
 };

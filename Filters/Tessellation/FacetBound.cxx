@@ -91,6 +91,12 @@ double Facet::Across(int i, const Vec3& p) const
   return this->Plane ? this->Outward[i].dot(p - this->X[i]) / std::sqrt(this->Square[i]) : 0.0;
 }
 
+double Facet::Beside(int i, const Vec3& p) const
+{
+  const Vec3 foot = this->Plane ? Vec3(p - this->N.dot(p - this->X[0]) * this->N) : p;
+  return std::sqrt(SegmentDistance(foot, this->X[i], this->Edge[i], this->Square[i]));
+}
+
 void SampleDistance::Add(const Facet& facet, const Vec3& p)
 {
   double height;
@@ -118,10 +124,16 @@ void SampleDistance::AddSlope(const Facet& facet, const Vec3& normal)
     this->Slope, c > SteepestCosine ? std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0)) : TooSteep);
 }
 
+void SampleDistance::AddCrease(const Facet& facet, int edge, const Vec3& p)
+{
+  this->Crease = std::max(this->Crease, facet.Beside(edge, p));
+}
+
 double SampleDistance::Largest() const
 {
-  return std::max(std::min(this->Far, this->Height + DihedralSlack * this->Slope * this->Outside),
-    std::min(this->Edge, this->Height + SlopeSlack * this->Slope * this->Inside));
+  return std::max({ std::min(this->Far, this->Height + DihedralSlack * this->Slope * this->Outside),
+    std::min(this->Edge, this->Height + SlopeSlack * this->Slope * this->Inside),
+    this->Crease < 0.0 ? 0.0 : std::hypot(this->Height, this->Crease) });
 }
 
 Remainder::Remainder(
@@ -151,8 +163,9 @@ double CombineError(const SampleDistance& samples, const Remainder& rest, int de
   const double beyond = std::min({ std::hypot(height, outside), samples.Far + both,
     height + DihedralSlack * samples.Slope * outside });
   const double within = height + SlopeSlack * samples.Slope * inside;
-  return std::max(
-    beyond, density == 1 ? std::min(beyond, within) : std::min(samples.Edge + both, within));
+  const double crease = samples.Crease < 0.0 ? 0.0 : std::hypot(height, samples.Crease + along);
+  return std::max({ crease, beyond,
+    density == 1 ? std::min(beyond, within) : std::min(samples.Edge + both, within) });
 }
 
 int NextDensity(const SampleDistance& samples, const Remainder& rest, int density, double limit)
@@ -210,6 +223,29 @@ double FacetBound::Error(const Triangle& t, double limit)
   return error;
 }
 
+// True if an edge lies on a crease within the face.
+bool FacetBound::IsCrease(const Triangle& t, int edge) const
+{
+  const Vec2& a = t.UV[edge];
+  const Vec2& b = t.UV[(edge + 1) % 3];
+  return !t.Boundary[edge] &&
+    ((a[0] == b[0] && this->Bound.IsCrease(0, a[0])) ||
+      (a[1] == b[1] && this->Bound.IsCrease(1, a[1])));
+}
+
+// What the triangle's corners tell.
+void FacetBound::AddCorners(const Triangle& t, const Facet& facet, SampleDistance& samples) const
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    samples.AddSlope(facet, t.Normal[i]);
+    if (this->IsCrease(t, i))
+    {
+      samples.AddCrease(facet, i, t.X[i]);
+    }
+  }
+}
+
 // The edges' part of CombineError, for the curve between two parameter points.
 double FacetBound::EdgeError(
   const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b)
@@ -232,16 +268,18 @@ double FacetBound::EdgeError(
     }
   }
   SampleDistance samples;
-  for (const Vec3& normal : t.Normal)
-  {
-    samples.AddSlope(facet, normal);
-  }
+  this->AddCorners(t, facet, samples);
+  const bool crease = this->IsCrease(t, edge);
   for (double s : ts)
   {
     const Vec2 p = a + s * (b - a);
     const Vec3 x = this->Evaluator.Point(p[0], p[1]);
     samples.Add(facet, x); // Slopes start from the curve's height.
     samples.AddEdge(facet, edge, x);
+    if (crease)
+    {
+      samples.AddCrease(facet, edge, x);
+    }
   }
   if (!this->Guaranteed)
   {
@@ -283,10 +321,7 @@ double FacetBound::Part(
   if (whole)
   {
     samples.Height = samples.Outside = samples.Far = t.Gap;
-    for (const Vec3& normal : t.Normal)
-    {
-      samples.AddSlope(facet, normal);
-    }
+    this->AddCorners(t, facet, samples);
   }
   else
   {
@@ -359,6 +394,10 @@ void FacetBound::Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[
     if (edge[i] >= 0 && !t.Boundary[edge[i]])
     {
       samples.AddEdge(facet, edge[i], x);
+      if (this->IsCrease(t, edge[i]))
+      {
+        samples.AddCrease(facet, edge[i], x);
+      }
     }
   }
 }

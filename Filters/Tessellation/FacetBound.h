@@ -32,6 +32,8 @@ public:
   /// Distance of p's foot from the line of edge i (from corner i to i + 1), positive outwards; 0
   /// without a plane.
   double Across(int i, const Vec3& p) const;
+  /// Distance of p's foot from edge i.
+  double Beside(int i, const Vec3& p) const;
 
 private:
   Vec3 X[3];
@@ -47,18 +49,22 @@ private:
 ///
 /// A sample whose foot is beyond an edge has the neighbour's facet beneath it, which goes on with a
 /// slope against this one; beyond the face's boundary, the boundary's own error covers it. What lies
-/// between an edge and its curve that bows inwards has the surface beyond the curve above it.
+/// between an edge and its curve that bows inwards has the surface beyond the curve above it. Neither
+/// is so if the edge lies on a crease, where the surface may turn back.
 struct SampleDistance
 {
   double Height = 0.0;
   double Outside = 0.0;
   double Far = 0.0;  ///< Both together, of one sample.
   double Edge = 0.0; ///< Height and distance inside the edge together, of one sample on its curve.
-  double Inside = 0.0; ///< That distance alone.
-  double Slope = 0.0;  ///< Greatest slope of the surface against the facet at its corners.
+  double Inside = 0.0;  ///< That distance alone.
+  double Crease = -1.0; ///< Distance along the facet from edges on creases; negative: none is.
+  double Slope = 0.0;   ///< Greatest slope of the surface against the facet at its corners.
   void Add(const Facet& facet, const Vec3& p);
   void AddEdge(const Facet& facet, int edge, const Vec3& p);
   void AddSlope(const Facet& facet, const Vec3& normal);
+  /// A sample on the curve of an edge that lies on a crease; AddEdge is for it, too.
+  void AddCrease(const Facet& facet, int edge, const Vec3& p);
   /// The error that the samples alone tell.
   double Largest() const;
 };
@@ -116,6 +122,8 @@ private:
     double crease);
   void Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int last, int k,
     bool whole, SampleDistance& samples);
+  bool IsCrease(const Triangle& t, int edge) const;
+  void AddCorners(const Triangle& t, const Facet& facet, SampleDistance& samples) const;
   double EdgeError(const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b);
 
   const SurfaceBound& Bound;
