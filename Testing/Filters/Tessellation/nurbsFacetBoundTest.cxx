@@ -79,9 +79,9 @@ bool LooksBack(const Patch& patch, const std::vector<int>& ring)
   return false;
 }
 
-/// Bounds of all inner triangles under limits from the distance itself to none. From the surface to
-/// the patch they count where the triangles round about are certified, too; from the triangle to the
-/// surface anywhere (`own`), or there.
+/// Bounds of all inner triangles under limits from the distance itself to none. From the surface
+/// to the patch they count where the triangles round about are certified, too; from the triangle
+/// to the surface anywhere (`own`), or there.
 void Check(
   const SurfaceBound& bound, const Patch& patch, Tally& tally, const char* what, bool own = true)
 {
@@ -321,8 +321,9 @@ TEST(FacetBound, HoldsAcrossCreases)
   EXPECT_EQ(tally.Violations, 0);
 }
 
-/// Shapes whose curvature varies slowly, the size of cells and the rows to look at. Where the iso-lines
-/// curve inside the surface (a torus from top to inside) what feet slide beyond edges has its price.
+/// Shapes whose curvature varies slowly, the size of cells and the rows to look at. Where the
+/// iso-lines curve inside the surface (a torus from top to inside) what feet slide beyond edges
+/// has its price.
 struct SmoothShape
 {
   const char* Name;
