@@ -40,6 +40,8 @@ void CellError::MakeCorners(const ParameterBox& box)
   const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
     Vec2(box.U1, box.V1) };
   this->Evaluator.Batch(uv, 4, this->At[0].data(), this->Normal[0].data());
+  this->AtCrease = this->Bound.IsCrease(0, box.U0) || this->Bound.IsCrease(0, box.U1) ||
+    this->Bound.IsCrease(1, box.V0) || this->Bound.IsCrease(1, box.V1);
 }
 
 // Samples of the cell, k in each direction.
@@ -62,15 +64,25 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
     ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(), nullptr);
 }
 
+// What the corners of a facet tell.
+void CellError::AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    samples.AddSlope(facet, this->Normal[f[i]]);
+  }
+  if (this->AtCrease)
+  {
+    samples.SetCrease();
+  }
+}
+
 // The samples in one half of the cell, or (`alone`) all of them, against its facet.
 SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bool alone) const
 {
   const int k = this->Density;
   SampleDistance samples;
-  for (int corner : Facets[diagonal][half])
-  {
-    samples.AddSlope(facet, this->Normal[corner]);
-  }
+  this->AddCorners(facet, Facets[diagonal][half], samples);
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i <= k; ++i)
@@ -150,10 +162,7 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
         ? -1.0
         : 0.25 * std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
       SampleDistance corners;
-      for (int i = 0; i < 3; ++i)
-      {
-        corners.AddSlope(facet, this->Normal[f[i]]);
-      }
+      this->AddCorners(facet, f, corners);
       const Remainder whole(this->Second, box.A(), box.B(), facet, twist);
       error = CombineError(corners, whole, 1);
       rest.Height = facet.HasPlane() ? whole.Across : 1e300;

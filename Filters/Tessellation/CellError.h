@@ -25,6 +25,7 @@ public:
 
 private:
   double Measure(TreeLeaf& leaf);
+  void AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const;
   void MakeCorners(const ParameterBox& box);
   SampleDistance Samples(const Facet& facet, int diagonal, int half, bool alone) const;
   double Halves(int diagonal, const ParameterBox& box, double best);
@@ -44,6 +45,7 @@ private:
   Vec3 At[4];                                               ///< Corners (0,0), (1,0), (0,1), (1,1),
   Vec3 Normal[4];                                           ///< and normals there.
   Vec3 Sample[(DensestSamples + 1) * (DensestSamples + 1)]; ///< (Density + 1)^2, u fastest.
+  bool AtCrease = false;                                    ///< A side of the cell is a crease.
   int Density = 0;
 };
 

@@ -119,6 +119,11 @@ void SampleDistance::AddSlope(const Facet& facet, const Vec3& normal)
     this->Slope, c > SteepestCosine ? std::sqrt(std::max(0.0, 1.0 / (c * c) - 1.0)) : TooSteep);
 }
 
+void SampleDistance::SetCrease()
+{
+  this->Slope = TooSteep;
+}
+
 double SampleDistance::Largest() const
 {
   return std::max(std::min(this->Far, this->Height + DihedralSlack * this->Slope * this->Outside),
@@ -211,6 +216,23 @@ double FacetBound::Error(const Triangle& t, double limit)
   return error;
 }
 
+// What the triangle's corners tell.
+void FacetBound::AddCorners(const Triangle& t, const Facet& facet, SampleDistance& samples) const
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    samples.AddSlope(facet, t.Normal[i]);
+    const Vec2& a = t.UV[i];
+    const Vec2& b = t.UV[(i + 1) % 3];
+    if (!t.Boundary[i] &&
+      ((a[0] == b[0] && this->Bound.IsCrease(0, a[0])) ||
+        (a[1] == b[1] && this->Bound.IsCrease(1, a[1]))))
+    {
+      samples.SetCrease();
+    }
+  }
+}
+
 // The edges' part of CombineError, for the curve between two parameter points.
 double FacetBound::EdgeError(
   const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b)
@@ -233,10 +255,7 @@ double FacetBound::EdgeError(
     }
   }
   SampleDistance samples;
-  for (const Vec3& normal : t.Normal)
-  {
-    samples.AddSlope(facet, normal);
-  }
+  this->AddCorners(t, facet, samples);
   for (double s : ts)
   {
     const Vec2 p = a + s * (b - a);
@@ -282,10 +301,7 @@ double FacetBound::Part(
   if (whole)
   {
     samples.Height = samples.Outside = samples.Far = t.Gap;
-    for (const Vec3& normal : t.Normal)
-    {
-      samples.AddSlope(facet, normal);
-    }
+    this->AddCorners(t, facet, samples);
   }
   else
   {

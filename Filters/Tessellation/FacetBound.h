@@ -69,6 +69,9 @@ struct SampleDistance
   /// @param edge the edge whose curve the sample is on; -1: none, or one on the boundary.
   void Add(const Facet& facet, const Vec3& p, int edge = -1);
   void AddSlope(const Facet& facet, const Vec3& normal);
+  /// Says that an edge lies on a crease: the surface may turn back there, so that distances along the
+  /// facet count in full.
+  void SetCrease();
   /// The error that the samples alone tell.
   double Largest() const;
 };
@@ -127,6 +130,7 @@ private:
     double crease);
   void Sample(const Triangle& t, const Facet& facet, const Vec2 (&uv)[3], int last, int k,
     bool whole, SampleDistance& samples);
+  void AddCorners(const Triangle& t, const Facet& facet, SampleDistance& samples) const;
   double EdgeError(const Triangle& t, const Facet& facet, int edge, const Vec2& a, const Vec2& b);
 
   const SurfaceBound& Bound;

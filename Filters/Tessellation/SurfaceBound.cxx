@@ -584,6 +584,11 @@ bool SurfaceBound::HasGridLineInside(const ParameterBox& box) const
   return this->Find(0, box.U0, box.U1, first, last) || this->Find(1, box.V0, box.V1, first, last);
 }
 
+bool SurfaceBound::IsCrease(int dir, double t) const
+{
+  return std::binary_search(this->Crease[dir].begin(), this->Crease[dir].end(), t);
+}
+
 bool SurfaceBound::CrossesCrease(const ParameterBox& box) const
 {
   const double low[2] = { box.U0, box.V0 };

@@ -73,6 +73,8 @@ public:
 
   /// Knots strictly inside the used part where the surface is not C1: no triangle may cross them.
   const std::vector<double>& Creases(int dir) const { return this->Crease[dir]; }
+  /// True if t is a crease of a direction.
+  bool IsCrease(int dir, double t) const;
   /// True if the box crosses a crease by more than NegligibleSpan of its extent.
   bool CrossesCrease(const ParameterBox& box) const;
   /// Bounds over a box in the used part. Creases inside it are ignored, see CrossesCrease.

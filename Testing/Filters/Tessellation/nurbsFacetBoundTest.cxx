@@ -79,9 +79,9 @@ bool LooksBack(const Patch& patch, const std::vector<int>& ring)
   return false;
 }
 
-/// Bounds of all inner triangles under limits from the distance itself to none. From the surface to
-/// the patch they count where the triangles round about are certified, too; from the triangle to the
-/// surface anywhere (`own`), or there.
+/// Bounds of all inner triangles under limits from the distance itself to none. From the surface
+/// to the patch they count where the triangles round about are certified, too; from the triangle
+/// to the surface anywhere (`own`), or there.
 void Check(
   const SurfaceBound& bound, const Patch& patch, Tally& tally, const char* what, bool own = true)
 {
@@ -321,8 +321,34 @@ TEST(FacetBound, HoldsAcrossCreases)
   EXPECT_EQ(tally.Violations, 0);
 }
 
-/// Shapes whose curvature varies slowly, the size of cells and the rows to look at. Where the iso-lines
-/// curve inside the surface (a torus from top to inside) what feet slide beyond edges has its price.
+// A ring that turns back into a shallow cone at its rim, flat enough for slopes to say nothing.
+TEST(FacetBound, HoldsForEdgesOnCreases)
+{
+  Random random(8);
+  Tally tally;
+  for (int k = 0; k < 10; ++k)
+  {
+    const double inner = k % 2 == 0 ? 1.0 : 3.0;
+    const double drop = -random.Uniform(0.02, 0.6);
+    const nurbs::Surface rim =
+      Revolve(1, { 0, 0, 1, 2, 2 }, { { inner, 0 }, { 2, 0 }, { inner, drop } }, { 1, 1, 1 });
+    const nurbs::SurfaceView view = rim.View();
+    SurfaceBound bound(view, DomainOf(view));
+    MakeGridOf(bound, 32);
+    const double a = std::exp(random.Uniform(std::log(0.004), std::log(0.08)));
+    const double b = k % 3 == 0 ? 0.25 : 0.0625;
+    Check(
+      bound, MakeGrid(view, random, random.Uniform(0.0, 0.7), 1.0 - b, a, b, 0.0), tally, "rims");
+    Check(bound, MakeGrid(view, random, random.Uniform(0.0, 0.7), 1.0 - 2 * b, a, b, 0.0), tally,
+      "rims");
+  }
+  tally.Print("edges on creases");
+  EXPECT_EQ(tally.Violations, 0);
+}
+
+/// Shapes whose curvature varies slowly, the size of cells and the rows to look at. Where the
+/// iso-lines curve inside the surface (a torus from top to inside) what feet slide beyond edges
+/// has its price.
 struct SmoothShape
 {
   const char* Name;

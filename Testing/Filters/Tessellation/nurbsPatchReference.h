@@ -101,8 +101,8 @@ struct Patch
   }
 };
 
-/// nu x nv cells of a x b at (u, v), vertices moved by up to `jitter` of a cell. Those in the middle
-/// are checked.
+/// nu x nv cells of a x b at (u, v), vertices moved by up to `jitter` of a cell. Those in the
+/// middle are checked.
 inline Patch MakeGrid(const nurbs::SurfaceView& s, Random& random, double u, double v, double a,
   double b, double jitter, double gap = 0.0, int nu = 3, int nv = 3)
 {
@@ -221,7 +221,8 @@ struct Distances
   double Both() const { return std::max(this->Mesh, this->Surface); }
 };
 
-/// The distance from the surface over the patch and a little more, found by search from many places.
+/// The distance from the surface over the patch and a little more, found by search from many
+/// places.
 inline double SearchRoundAbout(const nurbs::SurfaceView& s, const Patch& patch, const Vec3& x)
 {
   const ParameterBox box = patch.Box();

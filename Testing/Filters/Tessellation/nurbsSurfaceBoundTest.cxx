@@ -11,8 +11,8 @@ using namespace reference;
 using nurbs::SecondDerivatives;
 using nurbs::SurfaceBound;
 
-// How far rounding may move a second derivative of coordinates of `size`: differences of coefficients
-// over `cell`. Small, as few boxes are as narrow as the narrowest cell that is meant.
+// How far rounding may move a second derivative of coordinates of `size`: differences of
+// coefficients over `cell`. Small, as few boxes are as narrow as the narrowest cell that is meant.
 double Rounding(double size, int degree, double cell)
 {
   return 1e-17 * size * degree * degree * degree / (cell * cell);
@@ -239,8 +239,8 @@ std::vector<double> CreasesOf(const nurbs::Surface& surface, int dir)
   return SurfaceBound(view, DomainOf(view)).Creases(dir);
 }
 
-// Degree 2 in u with a double knot at 1 of [0, 2], degree 3 in v; the middle row of the second half is
-// where C1 wants it but for `kink(j)` upwards. Weights are not C1, which does not matter.
+// Degree 2 in u with a double knot at 1 of [0, 2], degree 3 in v; the middle row of the second
+// half is where C1 wants it but for `kink(j)` upwards. Weights are not C1, which does not matter.
 nurbs::Surface JoinedPatches(
   const std::function<double(int)>& kink, double stretch, int spansV, bool rational)
 {
@@ -321,8 +321,8 @@ TEST(SurfaceBound, KnowsWhatCrossesCreases)
   EXPECT_FALSE(bound.CrossesCrease({ 1.2, 1.9, 0.0, 3.0 }));
 }
 
-// S less its linear interpolation, in any direction, and less the bilinear one of the box without the
-// mixed term.
+// S less its linear interpolation, in any direction, and less the bilinear one of the box without
+// the mixed term.
 TEST(SurfaceBound, BowHoldsForTrianglesOfTheBox)
 {
   Random random(33);
