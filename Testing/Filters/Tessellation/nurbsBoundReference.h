@@ -16,6 +16,17 @@ using nurbs::ParameterBox;
 using nurbs::Vec2;
 using nurbs::Vec3;
 
+/// `n`, or a few under a sanitizer, which takes fifty times as long and looks for other mistakes.
+inline int Rounds(int n)
+{
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  return std::max(1, n / 8);
+#endif
+#endif
+  return n;
+}
+
 /// `Surface` of Random with weights of 0.2 to 5 and all points moved.
 inline nurbs::Surface WildSurface(Random& random, int p, int q, bool rational, const Vec3& origin)
 {

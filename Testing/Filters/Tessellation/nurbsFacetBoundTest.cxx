@@ -176,7 +176,7 @@ Tally CheckGrids(unsigned seed, int surfaces, double slender, double jitter, dou
 {
   Random random(seed);
   Tally tally;
-  for (int k = 0; k < surfaces; ++k)
+  for (int k = 0; k < Rounds(surfaces); ++k)
   {
     const nurbs::Surface shape = RandomShape(random, k);
     const nurbs::SurfaceView view = shape.View();
@@ -212,25 +212,25 @@ Tally CheckGrids(unsigned seed, int surfaces, double slender, double jitter, dou
 
 TEST(FacetBound, HoldsForWellShapedTriangles)
 {
-  const Tally tally = CheckGrids(1, 40, 1.0, 0.2, 0.0, 0.08, "well shaped");
+  const Tally tally = CheckGrids(1, 36, 1.0, 0.2, 0.0, 0.08, "well shaped");
   EXPECT_EQ(tally.Violations, 0);
 }
 
 TEST(FacetBound, HoldsForSlivers)
 {
-  const Tally tally = CheckGrids(2, 24, 0.005, 0.2, 0.0, 0.08, "slivers");
+  const Tally tally = CheckGrids(2, 18, 0.005, 0.2, 0.0, 0.08, "slivers");
   EXPECT_EQ(tally.Violations, 0);
 }
 
 TEST(FacetBound, HoldsForLargeTriangles)
 {
-  const Tally tally = CheckGrids(3, 40, 1.0, 0.3, 0.0, 0.25, "large and skew");
+  const Tally tally = CheckGrids(3, 36, 1.0, 0.3, 0.0, 0.25, "large and skew");
   EXPECT_EQ(tally.Violations, 0);
 }
 
 TEST(FacetBound, HoldsWithGaps)
 {
-  const Tally tally = CheckGrids(4, 40, 1.0, 0.2, 1.0, 0.08, "with gaps");
+  const Tally tally = CheckGrids(4, 30, 1.0, 0.2, 1.0, 0.08, "with gaps");
   EXPECT_EQ(tally.Violations, 0);
 }
 
@@ -238,7 +238,7 @@ TEST(FacetBound, HoldsForCaps)
 {
   Random random(5);
   Tally tally;
-  for (int k = 0; k < 120; ++k)
+  for (int k = 0; k < Rounds(120); ++k)
   {
     const nurbs::Surface shape = RandomShape(random, k);
     const nurbs::SurfaceView view = shape.View();
@@ -267,7 +267,7 @@ TEST(FacetBound, HoldsAtPoles)
   const nurbs::SurfaceView view = sphere.View();
   SurfaceBound bound(view, DomainOf(view));
   MakeGridOf(bound, 60);
-  for (int k = 0; k < 60; ++k)
+  for (int k = 0; k < Rounds(48); ++k)
   {
     const double b = std::exp(random.Uniform(std::log(0.005), std::log(0.1)));
     Check(bound, MakePole(view, random, 1.0 - b, random.Integer(3, 8), k % 2 == 0 ? 0.0 : 0.2),
@@ -304,7 +304,7 @@ TEST(FacetBound, HoldsAcrossCreases)
 {
   Random random(7);
   Tally tally;
-  for (int k = 0; k < 60; ++k)
+  for (int k = 0; k < Rounds(48); ++k)
   {
     const nurbs::Surface shape = Kinked(random, k);
     const nurbs::SurfaceView view = shape.View();
@@ -326,7 +326,7 @@ TEST(FacetBound, HoldsForEdgesOnCreases)
 {
   Random random(8);
   Tally tally;
-  for (int k = 0; k < 10; ++k)
+  for (int k = 0; k < Rounds(10); ++k)
   {
     const double inner = k % 2 == 0 ? 1.0 : 3.0;
     const double drop = -random.Uniform(0.02, 0.6);
@@ -406,7 +406,7 @@ Ratios MeasureRatios(const SmoothShape& smooth, double scale)
   FacetBound samples(bound, ErrorMode::Estimated);
   Random random(9);
   Ratios out;
-  for (int k = 0; k < 24; ++k)
+  for (int k = 0; k < Rounds(24); ++k)
   {
     const bool skew = k % 2 == 1;
     const double aside = skew && nv > 5 ? 0.3 : 0.0;

@@ -168,7 +168,7 @@ struct Result
   double Ideal = 0.0;   ///< Integral of sqrt(|K|) over the area, over four tolerances.
 };
 
-/// At most `most` leaves are sampled; half of those at open ends only if the ends lie `inPlanes`, as
+/// Samples at most `most` leaves; half of those at open ends only if the ends lie `inPlanes`, as
 /// curves that bow inwards leave facets without surface, which a mesh's boundary takes care of.
 Result Measure(const nurbs::Surface& surface, const ParameterBox& domain, const TreeGoal& goal,
   const char* name, std::size_t most = 120, bool inPlanes = true)
@@ -194,7 +194,7 @@ Result Measure(const nurbs::Surface& surface, const ParameterBox& domain, const 
     AddFans(view, tree, leaves[k], triangles[k]);
     out.Bound = std::max(out.Bound, leaves[k].Error / goal.Tolerance);
   }
-  const std::size_t step = 1 + leaves.size() / most;
+  const std::size_t step = 1 + leaves.size() / std::size_t(Rounds(int(most)));
   for (std::size_t k = 0; k < leaves.size(); k += step)
   {
     const ParameterBox& b = leaves[k].Box;
