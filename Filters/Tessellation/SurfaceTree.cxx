@@ -13,7 +13,6 @@ namespace nurbs
 namespace
 {
 constexpr int FractionBits = 20;
-constexpr double EvenShare = 0.75;  // Mean demand over greatest demand from which on lines fit all.
 constexpr double FailureCost = 3.0; // Cells that a failing one becomes or adds T-vertices to.
 constexpr double BoundSlack = 1.06; // By how much bounds exceed the sampled error, typically.
 constexpr LineCode One = LineCode(1) << FractionBits;
