@@ -438,24 +438,16 @@ private:
           edge = std::minmax(a, b);
         }
       }
-      Vec2 p;
       if (fails ? this->SplitsWall(t.data(), edge, folded ? 0.5 : 0.05)
                 : this->SplitsExceedingWall(t.data(), edge))
       {
         continue;
       }
-      if (edge.first < 0)
-      {
-        p = (this->Mesh.UV[t[0]] + this->Mesh.UV[t[1]] + this->Mesh.UV[t[2]]) / 3.0;
-      }
-      else if (!split.insert(edge).second)
+      if (edge.first >= 0 && !split.insert(edge).second)
       {
         continue;
       }
-      else
-      {
-        p = 0.5 * (this->Mesh.UV[edge.first] + this->Mesh.UV[edge.second]);
-      }
+      const Vec2 p = this->SplitPoint(t.data(), edge);
       const int id = border.AddPoint(p.cwiseProduct(this->Scale));
       if (id == int(vertexOf.size()))
       {
@@ -497,14 +489,20 @@ private:
     return this->Requests.size() > before;
   }
 
+  // Where a triangle is split: the middle of `edge`, or its own if there is none.
+  Vec2 SplitPoint(const int* t, const std::pair<int, int>& edge) const
+  {
+    const std::vector<Vec2>& uv = this->Mesh.UV;
+    return edge.first < 0 ? Vec2((uv[t[0]] + uv[t[1]] + uv[t[2]]) / 3.0)
+                          : Vec2(0.5 * (uv[edge.first] + uv[edge.second]));
+  }
+
   // A split of `edge` would leave a sliver at one of the triangle's boundary segments or at a side of a
   // whole cell (flatter than `flat`): asks for a vertex there instead.
   bool SplitsWall(const int* t, const std::pair<int, int>& edge, double flat)
   {
     bool asked = false;
-    const Vec2 p = edge.first < 0
-      ? Vec2((this->Mesh.UV[t[0]] + this->Mesh.UV[t[1]] + this->Mesh.UV[t[2]]) / 3.0)
-      : Vec2(0.5 * (this->Mesh.UV[edge.first] + this->Mesh.UV[edge.second]));
+    const Vec2 p = this->SplitPoint(t, edge);
     for (int i = 0; i < 3; ++i)
     {
       const int a = t[i];
