@@ -4,7 +4,7 @@
 ///
 /// Cells that no trim line comes near are triangulated for themselves (Balazs section 7, convex
 /// polygons in linear time); the zone between them and the trim polylines by a constrained Delaunay
-/// triangulation. Every triangle is then certified by the bound of SurfaceBound.h; those that fail
+/// triangulation. Every triangle is then certified by the bound of FacetBound.h; those that fail
 /// get another vertex.
 #pragma once
 
