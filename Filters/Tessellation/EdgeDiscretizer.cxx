@@ -104,7 +104,12 @@ public:
     , Tolerance(tolerance)
     , Options(options)
     , Domain(EdgeDomain(model, edge, uses))
-  {}
+  {
+    for (const EdgeUse& use : uses)
+    {
+      this->Evaluators.push_back(faces[use.Face].Bound->Evaluator());
+    }
+  }
 
   EdgePolyline Run(const std::vector<double>& extra)
   {
@@ -202,7 +207,12 @@ private:
   Vec3 Lifted(const EdgeUse& use, double t) const
   {
     const Vec2 uv = this->UV(use, t);
-    return Evaluate(this->Data.Faces[use.Face].Geometry, uv[0], uv[1]);
+    return this->Evaluator(use).Point(uv[0], uv[1]);
+  }
+
+  SurfaceEvaluator& Evaluator(const EdgeUse& use) const
+  {
+    return this->Evaluators[&use - this->Uses.data()];
   }
 
   // The edge's own 3D curve if it fits its faces and several share it; else the lowest face's lifted trim curve (control
@@ -382,9 +392,9 @@ private:
     }
     // Between samples the curve is a mean of them plus the remainder (FacetBound.h).
     const bool guaranteed = this->Options.Error == ErrorMode::Guaranteed;
-    const SurfaceView& s = bound.View();
-    const Vec3 x0 = Evaluate(s, a[0], a[1]);
-    const Facet chord(x0, Evaluate(s, b[0], b[1]), x0);
+    SurfaceEvaluator& s = this->Evaluator(use);
+    const Vec3 x0 = s.Point(a[0], a[1]);
+    const Facet chord(x0, s.Point(b[0], b[1]), x0);
     double far = 0.0;
     for (int k = 4; k <= 16; k *= 2)
     {
@@ -393,7 +403,7 @@ private:
         const Vec2 p = a + (b - a) * (double(i) / k);
         double height;
         double distance;
-        chord.Measure(Evaluate(s, p[0], p[1]), height, distance);
+        chord.Measure(s.Point(p[0], p[1]), height, distance);
         far = std::max(far, distance);
       }
       error = far + (guaranteed ? rest / (k * k) : 0.0);
@@ -407,8 +417,9 @@ private:
 
   // Segments that a chord needs so that a triangle beside it, as deep as the tree's cells, can stay
   // within the tolerance; 1: fine.
-  int DepthSegments(const FaceContext& face, const Vec2& a, const Vec2& b) const
+  int DepthSegments(const EdgeUse& use, const Vec2& a, const Vec2& b) const
   {
+    const FaceContext& face = this->Faces[use.Face];
     const double du = std::abs(b[0] - a[0]);
     const double dv = std::abs(b[1] - a[1]);
     const ParameterBox box{ std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]),
@@ -416,8 +427,11 @@ private:
     // Curvature as it is in the middle: what is certain comes with the triangles.
     const Vec2 middle = 0.5 * (a + b);
     const SurfaceView& s = face.Bound->View();
-    const SurfaceDerivatives d = EvaluateDerivatives(s, middle[0], middle[1], 2);
-    const Vec3 n = Normal(s, middle[0], middle[1]);
+    const SurfaceDerivatives d = this->Evaluator(use).Derivatives(middle[0], middle[1], 2);
+    const Vec3 cross = d.Su.cross(d.Sv);
+    const double size = cross.norm();
+    const Vec3 n = size > 1e-6 * d.Su.norm() * d.Sv.norm() ? Vec3(cross / size)
+                                                           : Normal(s, middle[0], middle[1]);
     const double height[3] = { std::abs(n.dot(d.Suu)), std::abs(n.dot(d.Suv)),
       std::abs(n.dot(d.Svv)) };
     const double along =
@@ -478,7 +492,7 @@ private:
         double error = 0.0;
         int n = straight ? 1 : this->ChordSegments(use, a, b, error);
         this->ChordError = std::max(this->ChordError, error);
-        n = std::max(n, this->DepthSegments(face, a, b));
+        n = std::max(n, this->DepthSegments(use, a, b));
         n = std::max(n, this->AngleSegments(use, ts[k], ts[k + 1]));
         for (int i = 1; i < n; ++i)
         {
@@ -519,6 +533,7 @@ private:
   Interval Domain;
   bool OwnCurve = false;
   std::vector<BezierCurve<3>> Pieces;
+  mutable std::vector<SurfaceEvaluator> Evaluators; ///< One a use.
   EdgePolyline Out;
   double ChordError = 0.0; ///< Of the chords in the faces' domains.
 };
