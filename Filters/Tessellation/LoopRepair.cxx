@@ -563,7 +563,9 @@ RepairedLoops RepairLoops(const Loops2& loops)
     const Subdivision plane(out.Loops);
     LoopsR kept = plane.Boundary(false);
     LoopsR evenOdd = plane.Boundary(true);
-    const bool positive = TotalArea(kept) >= 0.49 * TotalArea(evenOdd);
+    // Half as much, as of two crossing loops with equal lobes, is enough; rounding must not decide.
+    constexpr double Half = 0.5 * (1.0 - 1e-6);
+    const bool positive = TotalArea(kept) >= Half * TotalArea(evenOdd);
     out.Loops.swap(positive ? kept : evenOdd);
     if (round == 0)
     {

@@ -189,4 +189,20 @@ inline double SurfaceDistance(
   return best;
 }
 
+/// z = c x^2 + d y^2 over [0, 1]^2.
+inline nurbs::Surface Quadric(double c, double d)
+{
+  nurbs::Surface s;
+  s.Degree[0] = s.Degree[1] = 2;
+  s.Count[0] = s.Count[1] = 3;
+  s.Knots[0] = s.Knots[1] = { 0, 0, 0, 1, 1, 1 };
+  for (int k = 0; k < 9; ++k)
+  {
+    const int i = k % 3;
+    const int j = k / 3;
+    s.Points.push_back(Vec3(0.5 * i, 0.5 * j, (i == 2 ? c : 0.0) + (j == 2 ? d : 0.0)));
+  }
+  return s;
+}
+
 } // namespace reference
