@@ -40,15 +40,19 @@ public:
   FaceTrim(const Model& model, std::int64_t face);
 
   /// True if (u, v), in the face's parameters, is inside. NaN: false.
-  bool Inside(double u, double v) const;
+  bool Inside(double u, double v) const
+  {
+    int visited = 0;
+    return this->Inside(u, v, visited);
+  }
+  /// The same; `visited` receives the number of pieces that were looked at.
+  bool Inside(double u, double v, int& visited) const;
 
   /// True if all of the domain is inside: no texels are needed, FlatTrims gives no start.
   bool IsWhole() const { return this->Root == TrimTree::AllInside; }
 
   /// Number of monotone pieces that the structure refers to.
   std::int64_t PieceCount() const { return static_cast<std::int64_t>(this->Pieces.size()); }
-  /// Number of pieces that a query at (u, v) looks at.
-  int VisitedCount(double u, double v) const;
 
   /// Size in texels of 16 bytes of the face's part of TrimTexels; both 0 if IsWhole.
   std::int64_t PointTexelCount() const;
