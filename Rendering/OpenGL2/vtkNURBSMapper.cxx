@@ -497,6 +497,7 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     {
       window->GetState()->vtkglLineWidth(actor->GetProperty()->GetLineWidth());
     }
+    helper.VAO->Bind(); // a new program has released it
     c.Indices.Bind();
     for (int shape = 0; shape < nurbs::Tile::ShapeCount; ++shape)
     {

@@ -16,14 +16,14 @@ void main()
 {
   ivec4 job = texelFetch(nurbsJobs, firstJob + gl_InstanceID);
   nurbsTileInfo tile = nurbsGetTile(job.x);
-  ivec2 samples = (1 << min(tile.log, ivec2(MAX_LOG))) + 1;
+  ivec2 samples = (ivec2(1) << min(tile.level, ivec2(MAX_LOG))) + 1;
 #ifdef ALONG_U
   ivec2 place = job.yz;
   samples.y = tile.degree.y + 1;
 #else
   ivec2 place = tile.place;
 #endif
-  tilePlaceLog = ivec4(place, tile.log);
+  tilePlaceLog = ivec4(place, tile.level);
   tileFirstRows = ivec4(tile.first, job.yz);
   tileBlockPoint = ivec4(tile.block, tile.point, tile.stride);
   vec2 corner = vec2(place) + vec2(samples) * vec2(gl_VertexID & 1, gl_VertexID >> 1);

@@ -8,7 +8,7 @@ struct nurbsTileInfo
 {
   ivec2 place;   // of its first vertex in the atlas
   int surface;
-  ivec2 log;     // cells in the whole span, binary logarithm
+  ivec2 level;   // cells in the whole span, binary logarithm
   ivec2 first;   // first cell
   ivec2 degree;
   ivec2 block;   // of the span in nurbsKnots
@@ -24,7 +24,7 @@ nurbsTileInfo nurbsGetTile(int index)
   nurbsTileInfo tile;
   tile.place = ivec2(t.x & 0xffff, (t.x >> 16) & 0xffff);
   tile.surface = t.y & 0xffffff;
-  tile.log = ivec2((t.y >> 24) & 15, (t.y >> 28) & 15);
+  tile.level = ivec2((t.y >> 24) & 15, (t.y >> 28) & 15);
   ivec2 span = ivec2(t.z & 0xffff, (t.z >> 16) & 0xffff);
   tile.first = ivec2(t.w & 0xffff, (t.w >> 16) & 0xffff);
   ivec4 a = texelFetch(nurbsSurfaces, 2 * tile.surface);
@@ -40,7 +40,7 @@ nurbsTileInfo nurbsGetTile(int index)
 }
 
 // The parameter in [0, 1] of vertex k of a span.
-float nurbsParameter(int k, int log)
+float nurbsParameter(int k, int level)
 {
-  return float(k) / float(1 << log);
+  return float(k) / float(1 << level);
 }

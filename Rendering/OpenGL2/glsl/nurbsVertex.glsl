@@ -18,7 +18,7 @@ void nurbsFetchVertex()
 {
   nurbsTileIndex = nurbsFirstTile + gl_InstanceID;
   nurbsTileInfo tile = nurbsGetTile(nurbsTileIndex);
-  ivec2 cells = 1 << min(tile.log, ivec2(NURBS_MAX_LOG));
+  ivec2 cells = ivec2(1) << min(tile.level, ivec2(NURBS_MAX_LOG));
   ivec2 k = ivec2(gl_VertexID % (cells.x + 1), gl_VertexID / (cells.x + 1));
   if (tile.reversed)
   {
@@ -33,6 +33,6 @@ void nurbsFetchVertex()
   {
     normalMC = -normalMC;
   }
-  nurbsT = vec2(nurbsParameter(tile.first.x + k.x, tile.log.x),
-    nurbsParameter(tile.first.y + k.y, tile.log.y));
+  nurbsT = vec2(nurbsParameter(tile.first.x + k.x, tile.level.x),
+    nurbsParameter(tile.first.y + k.y, tile.level.y));
 }
