@@ -30,6 +30,13 @@ Eigen::AlignedBox3f ControlBox(const SurfaceView& view, int i, int j, const Vec3
   return box;
 }
 
+// True if the surface ends at a knot, or may have a crease there.
+bool IsOpen(const KnotView& knots, int degree, double knot, const Interval& domain)
+{
+  return knot <= domain.Min || knot >= domain.Max ||
+    std::count(knots.begin(), knots.end(), knot) >= degree;
+}
+
 } // namespace
 
 int SurfaceTable::Add(const SurfaceView& view, const Box2& used)
@@ -84,6 +91,8 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
     this->Knots.push_back(static_cast<float>(share.Min));
     this->Knots.push_back(static_cast<float>(share.Length()));
     this->Knots.push_back(static_cast<float>(k - degree));
+    this->Knots.push_back((IsOpen(knots, degree, knots[k], domain) ? 1.0f : 0.0f) +
+      (IsOpen(knots, degree, knots[k + 1], domain) ? 2.0f : 0.0f));
     for (int m = 0; m < 2 * degree; ++m)
     {
       this->Knots.push_back(static_cast<float>((knots[k - degree + 1 + m] - knots[k]) / length));

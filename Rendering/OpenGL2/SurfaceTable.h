@@ -39,7 +39,7 @@ struct TableSurface
   std::vector<PatchBound> Patches;    ///< Spans[0].size() x Spans[1].size(), u fastest.
 
   bool IsDrawable() const { return this->View.Count[0] > 0; }
-  int BlockSize(int dir) const { return 3 + 2 * this->View.Degree[dir]; }
+  int BlockSize(int dir) const { return 4 + 2 * this->View.Degree[dir]; }
   const PatchBound& Patch(int i, int j) const
   {
     return this->Patches[i + j * this->Spans[0].size()];
@@ -71,7 +71,8 @@ public:
   /// Homogeneous control points relative to their surface's origin: (w x, w y, w z, w) a point.
   const std::vector<float>& GetPoints() const { return this->Points; }
   /// Blocks, one a span: start and length of the span as shares of the domain, index of the first
-  /// control point in this direction, then the 2 p knots around the span relative to it.
+  /// control point in this direction, its open sides (1: the start, 2: the end, where the surface
+  /// ends or may have a crease), then the 2 p knots around the span relative to it.
   const std::vector<float>& GetKnots() const { return this->Knots; }
 
 private:

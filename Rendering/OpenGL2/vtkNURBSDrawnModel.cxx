@@ -162,6 +162,7 @@ void vtkNURBSDrawnModel::Rebuild()
 {
   this->Table = nurbs::SurfaceTable();
   this->Trims = nurbs::TrimTexels();
+  this->MaxDegree = 1;
   for (const Leaf& leaf : this->Leaves)
   {
     const nurbs::Model& model = leaf.Model();
@@ -170,6 +171,8 @@ void vtkNURBSDrawnModel::Rebuild()
       if (face.Geometry.Count[0] > 0)
       {
         this->Table.Add(face.Geometry, UsedPart(model, face));
+        this->MaxDegree =
+          std::max({ this->MaxDegree, face.Geometry.Degree[0], face.Geometry.Degree[1] });
       }
       else
       {

@@ -54,6 +54,8 @@ public:
   const std::vector<int>& GetMoved() const { return this->Moved; }
   const std::string& GetWarnings() const { return this->Warnings; }
   nurbs::Box3 GetBounds() const;
+  /// The highest degree of a surface, in either direction.
+  int GetMaxDegree() const { return this->MaxDegree; }
 
   /// The leaf that a surface belongs to.
   const Leaf& LeafOf(int surface) const;
@@ -69,6 +71,7 @@ private:
   nurbs::TrimTexels Trims;
   std::vector<int> Moved;
   std::string Warnings;
+  int MaxDegree = 1;
 };
 
 #endif

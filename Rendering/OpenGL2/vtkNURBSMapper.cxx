@@ -37,6 +37,7 @@
 #include "vtkWeakPointer.h"
 #include "vtk_glew.h"
 
+#include "nurbsExact.h"
 #include "nurbsFragment.h"
 #include "nurbsTile.h"
 #include "nurbsTrim.h"
@@ -46,6 +47,27 @@
 #include <array>
 
 vtkStandardNewMacro(vtkNURBSMapper);
+
+namespace
+{
+
+// The largest tolerance of the edges around a face.
+double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
+{
+  double tolerance = 0.0;
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const nurbs::TrimLoop& loop = model.Loops[l];
+    for (std::int64_t t = loop.FirstCurve; t < loop.FirstCurve + loop.CurveCount; ++t)
+    {
+      const std::int64_t edge = model.TrimCurves[t].Edge;
+      tolerance = edge < 0 ? tolerance : std::max(tolerance, model.Edges[edge].Tolerance);
+    }
+  }
+  return tolerance;
+}
+
+} // namespace
 
 struct vtkNURBSMapper::Internals
 {
@@ -223,6 +245,7 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
         const std::size_t index = leaf.First + f;
         infos[index].Reversed = leaf.Model().Faces[f].Reversed;
         infos[index].Trim = c.Model.GetTrims().FaceStart[index];
+        infos[index].Tolerance = ToleranceOf(leaf.Model(), leaf.Model().Faces[f]);
         ids.insert(ids.end(), { static_cast<int>(f), static_cast<int>(leaf.FlatIndex), 0, 0 });
       }
     }
@@ -403,8 +426,16 @@ void vtkNURBSMapper::ReplaceShaderValues(
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   const auto substitute = [](std::string& source, const char* from, const std::string& to)
   { vtkShaderProgram::Substitute(source, from, to); };
+  const bool exact = this->DrawsExactly(actor);
+  std::string defines = "#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) + "\n";
+  if (exact)
+  {
+    defines += "#define NURBS_EXACT\n#define NURBS_MAX_DEGREE " +
+      std::to_string(this->Content->Model.GetMaxDegree()) + "\n";
+  }
   substitute(fragment, "//VTK::PositionVC::Dec",
-    std::string(nurbsTile) + nurbsTrim + nurbsFragment + "//VTK::PositionVC::Dec");
+    defines + nurbsTile + (exact ? nurbsExact : "") + nurbsTrim + nurbsFragment +
+      "//VTK::PositionVC::Dec");
   substitute(fragment, "//VTK::UniformFlow::Impl",
     "  nurbsBeginFragment();\n  //VTK::UniformFlow::Impl\n");
   substitute(fragment, "//VTK::Clip::Impl",
@@ -420,12 +451,31 @@ void vtkNURBSMapper::ReplaceShaderValues(
   // The superclass has declared attributes; ours are variables that nurbsFetchVertex sets.
   std::string vertex = shaders[vtkShader::Vertex]->GetSource();
   std::string declarations = nurbsVertex;
-  substitute(declarations, "//NURBS::Tile::Dec",
-    "#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) + "\n" + nurbsTile);
+  substitute(declarations, "//NURBS::Tile::Dec", defines + nurbsTile);
   substitute(vertex, "in vec3 normalMC;", "");
   substitute(vertex, "in vec4 vertexMC;", declarations);
   substitute(vertex, "void main()\n{", "void main()\n{\n  nurbsFetchVertex();\n");
   shaders[vtkShader::Vertex]->SetSource(vertex);
+
+  if (exact)
+  {
+    // The surface's own normal and side, instead of the triangles'.
+    fragment = shaders[vtkShader::Fragment]->GetSource();
+    substitute(fragment, "gl_FrontFacing", "nurbsFront");
+    substitute(fragment, "vec3 normalVCVSOutput = normalize(normalVCVSOutput);",
+      "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
+    substitute(fragment, "  nurbsBeginFragment();\n",
+      "  nurbsBeginFragment();\n"
+      "  vec3 nurbsExactNormal = nurbsNormal(inverse(normalMatrix) * normalVCVSOutput);\n"
+      "  bool nurbsFront = nurbsSeesFront(nurbsExactNormal);\n");
+    shaders[vtkShader::Fragment]->SetSource(fragment);
+  }
+}
+
+// Whether fragments look for the surface itself: not for lines and points, which are the grid's.
+bool vtkNURBSMapper::DrawsExactly(vtkActor* actor)
+{
+  return this->ExactFragments && actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
 }
 
 // Passes of a hardware selection that ask what was hit: the cell, and the block of a composite.
@@ -476,6 +526,22 @@ void vtkNURBSMapper::SetMapperShaderParameters(
   const Eigen::Vector3f low = (c.Shift - high.cast<double>()).cast<float>();
   program->SetUniform3f("nurbsShiftHigh", high.data());
   program->SetUniform3f("nurbsShiftLow", low.data());
+  if (this->DrawsExactly(actor))
+  {
+    Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
+    shift.topRightCorner<3, 1>() = c.Shift;
+    const Eigen::Matrix4d toClip = c.View.ModelToClip * shift;
+    const Eigen::Matrix4f matrix = toClip.cast<float>(); // column by column, as OpenGL wants it
+    program->SetUniformMatrix4x4("nurbsToClip", const_cast<float*>(matrix.data()));
+    const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
+    program->SetUniform3f("nurbsDepthAxis", axis.data());
+    int viewport[4];
+    window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+    const float pixels[4] = { float(viewport[0]), float(viewport[1]), float(viewport[2]),
+      float(viewport[3]) };
+    program->SetUniform4f("nurbsViewport", pixels);
+    program->SetUniformf("nurbsMargin", static_cast<float>(1.0 + this->PixelError));
+  }
 }
 
 void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
@@ -574,6 +640,7 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
   if (auto* mapper = vtkNURBSMapper::SafeDownCast(other))
   {
     this->SetPixelError(mapper->GetPixelError());
+    this->SetExactFragments(mapper->GetExactFragments());
     this->SetCompositeDataDisplayAttributes(mapper->GetCompositeDataDisplayAttributes());
   }
   this->Superclass::ShallowCopy(other);
@@ -583,6 +650,7 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PixelError: " << this->PixelError << "\n"
+     << indent << "ExactFragments: " << this->ExactFragments << "\n"
      << indent << "AchievedPixelError: " << this->AchievedPixelError << "\n"
      << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n"
      << indent << "CompositeDataDisplayAttributes: " << this->Attributes.Get() << "\n";

@@ -63,6 +63,18 @@ public:
 
   ///@{
   /**
+   * Whether each pixel looks for the point of the surface that it sees, instead of taking that of the
+   * triangle. Outlines, trims, edges and normals are exact then, and no gap opens between faces that
+   * share an edge, at any PixelError; a fragment costs two or three evaluations of its surface.
+   * Default on.
+   */
+  vtkSetMacro(ExactFragments, bool);
+  vtkGetMacro(ExactFragments, bool);
+  vtkBooleanMacro(ExactFragments, bool);
+  ///@}
+
+  ///@{
+  /**
    * Visibility, colour and opacity of the blocks of a composite input. Default: none.
    */
   void SetCompositeDataDisplayAttributes(vtkCompositeDataDisplayAttributes* attributes);
@@ -118,6 +130,7 @@ protected:
   bool DrawingEdges(vtkRenderer*, vtkActor*) override { return false; }
 
   double PixelError = 0.5;
+  bool ExactFragments = true;
   double AchievedPixelError = 0.0;
   vtkIdType NumberOfTriangles = 0;
   vtkSmartPointer<vtkCompositeDataDisplayAttributes> Attributes;
@@ -128,6 +141,7 @@ private:
 
   bool UpdateModel();
   bool UpdateTextures(vtkRenderer* renderer);
+  bool DrawsExactly(vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
 
   struct Internals;

@@ -46,7 +46,8 @@ public:
   struct SurfaceInfo
   {
     bool Reversed = false;
-    int Trim = -1;
+    int Trim = -1;          ///< First texel of its trims.
+    double Tolerance = 0.0; ///< Largest distance from its neighbours along shared edges.
   };
 
   /// Why the device can't be used; "" if it can.
@@ -114,6 +115,7 @@ private:
   std::vector<int> TileTexels;
   int First[nurbs::Tile::ShapeCount + 1] = {};
   long long EvaluatedVertices = 0;
+  std::vector<SurfaceInfo> Infos;
   std::string Error;
 };
 

@@ -21,8 +21,8 @@ void deBoor(inout vec4 d[DEGREE + 1], int block, float t, out vec4 derivative)
   {
     for (int j = DEGREE; j >= r; --j)
     {
-      float low = texelFetch(nurbsKnots, block + 2 + j).r;
-      float high = texelFetch(nurbsKnots, block + 3 + j - r + DEGREE).r;
+      float low = texelFetch(nurbsKnots, block + 3 + j).r;
+      float high = texelFetch(nurbsKnots, block + 4 + j - r + DEGREE).r;
       float a = (t - low) / (high - low);
       d[j] = mix(d[j - 1], d[j], a);
     }

@@ -8,19 +8,94 @@ in vec2 nurbsT;
 nurbsTileInfo nurbsFaceTile;
 vec2 nurbsST; // place in the face's domain, 0 to 1
 
+bool nurbsIsSurface = true; // whether the pixel sees the surface at all
+#ifdef NURBS_EXACT
+nurbsJet nurbsHere;
+mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
+float nurbsGap;     // pixels that this face may be off its neighbours at an edge
+#endif
+
 // Sets the variables above; called in uniform control flow.
 void nurbsBeginFragment()
 {
   nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
   ivec2 block = nurbsFaceTile.block;
-  nurbsST = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r) +
-    nurbsT * vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+  vec2 start = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
+  vec2 size = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+  vec2 t = nurbsT;
+#ifdef NURBS_EXACT
+  mat2 pixels; // change on screen with t
+  float perUnit;
+  nurbsIsSurface = nurbsHit(nurbsFaceTile, t, nurbsHere, pixels, perUnit);
+  float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
+  nurbsGap = 0.01 + min(tolerance * perUnit, 0.5);
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
+    // patch that the pixel sees.
+    int sides = int(texelFetch(nurbsKnots, block[dir] + 3).r);
+    float slack = nurbsGap / max(length(pixels[dir]), 1e-30);
+    if (((sides & 1) != 0 && t[dir] < -slack) || ((sides & 2) != 0 && t[dir] > 1.0 + slack))
+    {
+      nurbsIsSurface = false;
+    }
+  }
+  nurbsPerPixel = inverse(pixels);
+  nurbsPerPixel[0] *= size;
+  nurbsPerPixel[1] *= size;
+#endif
+  nurbsST = start + t * size;
 }
 
 bool nurbsIsInside()
 {
-  return nurbsFaceTile.trim < 0 || nurbsInside(nurbsFaceTile.trim, nurbsST);
+  int trim = nurbsFaceTile.trim;
+  if (!nurbsIsSurface)
+  {
+    return false;
+  }
+  if (trim < 0 || nurbsInside(trim, nurbsST))
+  {
+    return true;
+  }
+#ifdef NURBS_EXACT
+  // Neighbours may disagree about where their edge is.
+  vec2 x = nurbsGap * nurbsPerPixel[0];
+  vec2 y = nurbsGap * nurbsPerPixel[1];
+  return nurbsInside(trim, nurbsST + x) || nurbsInside(trim, nurbsST - x) ||
+    nurbsInside(trim, nurbsST + y) || nurbsInside(trim, nurbsST - y);
+#else
+  return false;
+#endif
 }
+
+#ifdef NURBS_EXACT
+
+vec3 nurbsProject(vec4 derivative)
+{
+  vec3 point = nurbsHere.h.xyz / nurbsHere.h.w;
+  return (derivative.xyz - derivative.w * point) / nurbsHere.h.w;
+}
+
+// The exact unit normal, or what the triangles say where it vanishes.
+vec3 nurbsNormal(vec3 interpolated)
+{
+  vec3 normal = cross(nurbsProject(nurbsHere.hu), nurbsProject(nurbsHere.hv));
+  float size = length(normal);
+  if (size == 0.0)
+  {
+    return interpolated;
+  }
+  return (nurbsFaceTile.reversed ? -normal : normal) / size;
+}
+
+// Whether the outside is seen.
+bool nurbsSeesFront(vec3 normal)
+{
+  return dot(normal, nurbsGetSight(nurbsFaceTile.surface)) < 0.0;
+}
+
+#endif
 
 ivec2 nurbsIds()
 {

@@ -32,7 +32,7 @@ nurbsTileInfo nurbsGetTile(int index)
   tile.degree = ivec2(a.z & 0xff, (a.z >> 8) & 0xff);
   tile.reversed = ((a.z >> 16) & 1) == 1;
   tile.stride = a.y;
-  tile.block = b.xy + span * (3 + 2 * tile.degree);
+  tile.block = b.xy + span * (4 + 2 * tile.degree);
   tile.trim = b.z;
   tile.point = a.x + int(texelFetch(nurbsKnots, tile.block.x + 2).r) +
     a.y * int(texelFetch(nurbsKnots, tile.block.y + 2).r);

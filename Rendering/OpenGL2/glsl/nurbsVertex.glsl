@@ -8,11 +8,76 @@ uniform samplerBuffer nurbsOrigins; // of the surfaces: high and low parts
 uniform vec3 nurbsShiftHigh;        // where vertexMC has its origin
 uniform vec3 nurbsShiftLow;
 uniform int nurbsFirstTile;
+#ifdef NURBS_EXACT
+uniform mat4 nurbsToClip;     // from vertexMC
+uniform vec4 nurbsViewport;   // x, y, width, height in pixels
+uniform float nurbsMargin;    // pixels by which triangles have to reach over the surface's outline
+#endif
 
 vec4 vertexMC;
 vec3 normalMC;
 flat out int nurbsTileIndex;
 out vec2 nurbsT; // parameters in the patch's spans
+
+#ifdef NURBS_EXACT
+
+// Pixels that a step from a point with clip coordinates c covers on screen.
+float nurbsPixels(vec4 c, vec3 direction)
+{
+  vec4 d = nurbsToClip * vec4(direction, 0.0);
+  return length(0.5 * nurbsViewport.zw * (d.xy - c.xy / c.w * d.w)) / c.w;
+}
+
+// Moves a vertex, so that the triangles cover every pixel that the surface covers: outwards along
+// the normal where the surface turns away from the eye, and beyond the borders of the patch at which
+// it ends or has a crease. Which pixels are the surface's is for the fragments to say.
+void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
+{
+  ivec2 next = ivec2(k.x < cells.x ? 1 : -1, k.y < cells.y ? 1 : -1);
+  ivec2 here = tile.place + k;
+  vec3 point = texelFetch(nurbsPositions, here, 0).xyz;
+  vec3 normal = texelFetch(nurbsNormals, here, 0).xyz;
+  vec3 step[2], turn[2];
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    ivec2 there = here + (dir == 0 ? ivec2(next.x, 0) : ivec2(0, next.y));
+    step[dir] = float(next[dir]) * (texelFetch(nurbsPositions, there, 0).xyz - point);
+    turn[dir] = float(next[dir]) * (texelFetch(nurbsNormals, there, 0).xyz - normal);
+  }
+  vec4 c = nurbsToClip * vertexMC;
+  if (c.w <= 0.0)
+  {
+    return; // behind the eye
+  }
+  mat4 m = transpose(nurbsToClip);
+  vec3 sight = normalize(cross(c.w * m[0].xyz - c.x * m[3].xyz, c.w * m[1].xyz - c.y * m[3].xyz));
+  vec3 shift = vec3(0.0);
+  if (abs(dot(normal, sight)) < 0.75)
+  {
+    float e = dot(step[0], step[0]), f = dot(step[0], step[1]), g = dot(step[1], step[1]);
+    float x = dot(sight, step[0]), y = dot(sight, step[1]);
+    vec2 along = vec2(g * x - f * y, e * y - f * x); // times e g - f^2 >= 0
+    float bend = dot(along.x * turn[0] + along.y * turn[1], along.x * step[0] + along.y * step[1]);
+    shift += sign(bend) * nurbsMargin / max(nurbsPixels(c, normal), 1e-30) * normal;
+  }
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    int sides = int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
+    int at = tile.first[dir] + k[dir];
+    float outwards = at == 0 && (sides & 1) != 0 ? -1.0
+      : at == 1 << tile.level[dir] && (sides & 2) != 0 ? 1.0 : 0.0;
+    float pixels = nurbsPixels(c, step[dir]);
+    if (outwards != 0.0 && pixels > 1e-3)
+    {
+      float cellsOut = outwards * min(nurbsMargin / pixels, 8.0);
+      shift += cellsOut * step[dir];
+      nurbsT[dir] += cellsOut / float(1 << tile.level[dir]);
+    }
+  }
+  vertexMC.xyz += shift;
+}
+
+#endif
 
 void nurbsFetchVertex()
 {
@@ -35,4 +100,7 @@ void nurbsFetchVertex()
   }
   nurbsT = vec2(nurbsParameter(tile.first.x + k.x, tile.level.x),
     nurbsParameter(tile.first.y + k.y, tile.level.y));
+#ifdef NURBS_EXACT
+  nurbsSpread(tile, k, cells);
+#endif
 }
