@@ -52,6 +52,7 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
   mat4 m = transpose(nurbsToClip);
   vec3 sight = normalize(cross(c.w * m[0].xyz - c.x * m[3].xyz, c.w * m[1].xyz - c.y * m[3].xyz));
   vec3 shift = vec3(0.0);
+  float reach = nurbsMargin; // over borders
   if (abs(dot(normal, sight)) < 0.75)
   {
     float e = dot(step[0], step[0]), f = dot(step[0], step[1]), g = dot(step[1], step[1]);
@@ -59,6 +60,7 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     vec2 along = vec2(g * x - f * y, e * y - f * x); // times e g - f^2 >= 0
     float bend = dot(along.x * turn[0] + along.y * turn[1], along.x * step[0] + along.y * step[1]);
     shift += sign(bend) * nurbsMargin / max(nurbsPixels(c, normal), 1e-30) * normal;
+    reach += nurbsMargin; // the other end of what moves outwards must not be laid bare
   }
   for (int dir = 0; dir < 2; ++dir)
   {
@@ -69,7 +71,7 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     float pixels = nurbsPixels(c, step[dir]);
     if (outwards != 0.0 && pixels > 1e-3)
     {
-      float cellsOut = outwards * min(nurbsMargin / pixels, 8.0);
+      float cellsOut = outwards * min(reach / pixels, 8.0);
       shift += cellsOut * step[dir];
       nurbsT[dir] += cellsOut / float(1 << tile.level[dir]);
     }
