@@ -1,6 +1,0 @@
-uniform samplerBuffer nurbsTrimPoints;
-uniform isamplerBuffer nurbsTrimRecords;
-bool nurbsInside(int trimStart, vec2 st)
-{
-  return true;
-}
