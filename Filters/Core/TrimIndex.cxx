@@ -36,7 +36,10 @@ bool Counts(const TrimPiece& piece, const Vec3* inner, std::int32_t reference, c
     return false;
   }
   Vec2 local = (p - piece.Low).cwiseQuotient(piece.High - piece.Low);
-  local[0] = piece.Falling ? 1.0 - local[0] : local[0];
+  if (piece.Falling)
+  {
+    local[0] = (piece.High[0] - p[0]) / (piece.High[0] - piece.Low[0]);
+  }
   return LiesRight(piece, inner, local);
 }
 
