@@ -93,7 +93,7 @@ struct BoxTree::Builder
     {
       box.extend(boxes[k]);
       count += counts[k];
-      above[k] = count > 0 ? count * HalfArea(box) : 0.0;
+      above[k] = count > 0 ? static_cast<double>(count) * HalfArea(box) : 0.0;
     }
     box.setEmpty();
     count = 0;
@@ -103,7 +103,7 @@ struct BoxTree::Builder
     {
       box.extend(boxes[k - 1]);
       count += counts[k - 1];
-      const double cost = count * HalfArea(box) + above[k];
+      const double cost = static_cast<double>(count) * HalfArea(box) + above[k];
       if (count > 0 && count < last - first && cost < least)
       {
         best = k;

@@ -67,7 +67,7 @@ private:
 
   struct Builder;
 
-  static bool Meets(const Node& node, int child, const BoxRay& ray, double tMin, double tMax,
+  static bool IsMet(const Node& node, int child, const BoxRay& ray, double tMin, double tMax,
     double& entry)
   {
     const auto& bounds = node.Bounds[child];
@@ -117,8 +117,8 @@ void BoxTree::Walk(const BoxRay& ray, double tMin, double& tMax, const Visit& vi
     }
     const Node& node = this->Nodes[next.Child];
     double entry[2];
-    const bool met[2] = { Meets(node, 0, ray, tMin, tMax, entry[0]),
-      Meets(node, 1, ray, tMin, tMax, entry[1]) };
+    const bool met[2] = { IsMet(node, 0, ray, tMin, tMax, entry[0]),
+      IsMet(node, 1, ray, tMin, tMax, entry[1]) };
     const int first = met[1] && (!met[0] || entry[1] < entry[0]) ? 1 : 0;
     if (met[1 - first])
     {

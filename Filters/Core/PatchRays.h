@@ -72,8 +72,11 @@ public:
   /// The box of all control points.
   const Box3& Bounds() const { return this->Box; }
 
-  std::int32_t Face(std::int32_t patch) const { return this->Patches[patch].Face; }
-  std::int32_t CellFace(std::int32_t cell) const { return this->Face(this->Cells[cell].Patch); }
+  std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
+  std::int32_t FaceOfCell(std::int32_t cell) const
+  {
+    return this->FaceOf(this->Cells[cell].Patch);
+  }
 
   /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border of
   /// cells, or within rounding of it, is found by each of them. Where a ray runs within the surface

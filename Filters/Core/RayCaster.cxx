@@ -82,7 +82,7 @@ std::size_t RayCaster::MemoryUse() const
 /// Whether the face has material at the hit, or within twice its edges' tolerance of it.
 bool RayCaster::IsInside(const PatchHit& hit) const
 {
-  const std::int64_t face = this->Surfaces.Face(hit.Patch);
+  const std::int64_t face = this->Surfaces.FaceOf(hit.Patch);
   const FaceTrim& trim = this->Trims.Face(face);
   if (trim.Inside(hit.UV[0], hit.UV[1]))
   {
@@ -106,7 +106,7 @@ bool RayCaster::IsInside(const PatchHit& hit) const
 
 void RayCaster::Finish(const Cast& cast, const PatchHit& hit, RayHit& out) const
 {
-  out.Face = this->Surfaces.Face(hit.Patch);
+  out.Face = this->Surfaces.FaceOf(hit.Patch);
   out.U = hit.UV[0];
   out.V = hit.UV[1];
   out.Point = hit.Point;
@@ -195,10 +195,20 @@ void RayCaster::All(const Ray& ray, std::vector<RayHit>& hits) const
   this->Merge(hits, cast.Planes.Direction);
 }
 
-/// Leaves one hit of those that are at one place and cross in one direction.
+/// How far apart two hits of one crossing may be.
+double RayCaster::Spread(const RayHit& a, const RayHit& b, const Vec3& direction) const
+{
+  const double cosine =
+    std::min(std::abs(a.Normal.dot(direction)), std::abs(b.Normal.dot(direction)));
+  return SamePart * this->Bounds().diagonal().norm() +
+    4.0 * (this->Tolerance[a.Face] + this->Tolerance[b.Face]) / std::max(cosine, 1e-3);
+}
+
+/// Leaves one hit of those that are at one place and cross in one direction. Two that remain there
+/// cross in opposite directions: in the order that goes on from the hit before.
 void RayCaster::Merge(std::vector<RayHit>& hits, const Vec3& direction) const
 {
-  const double size = this->Bounds().diagonal().norm();
+  const double touchSpread = SameTouchPart * this->Bounds().diagonal().norm();
   std::vector<RayHit> kept;
   for (const RayHit& hit : hits)
   {
@@ -206,16 +216,13 @@ void RayCaster::Merge(std::vector<RayHit>& hits, const Vec3& direction) const
     for (auto other = kept.rbegin(); other != kept.rend() && !repeated; ++other)
     {
       const double distance = (hit.Point - other->Point).norm();
-      const double slope = std::max(1e-3,
-        std::min(std::abs(hit.Normal.dot(direction)), std::abs(other->Normal.dot(direction))));
-      const double tolerance = SamePart * size +
-        4.0 * (this->Tolerance[hit.Face] + this->Tolerance[other->Face]) / slope;
-      if (distance > std::max(SameTouchPart * size, tolerance))
+      const double spread = this->Spread(hit, *other, direction);
+      if (distance > std::max(touchSpread, spread))
       {
         break;
       }
-      const bool touching = hit.Crossing == 0 || other->Crossing == 0;
-      repeated = touching || (hit.Crossing == other->Crossing && distance <= tolerance);
+      const bool touches = hit.Crossing == 0 || other->Crossing == 0;
+      repeated = touches || (hit.Crossing == other->Crossing && distance <= spread);
       if (repeated && other->Crossing == 0)
       {
         *other = hit; // a crossing tells more
@@ -225,6 +232,16 @@ void RayCaster::Merge(std::vector<RayHit>& hits, const Vec3& direction) const
     {
       kept.push_back(hit);
     }
+  }
+  int last = -1;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    if (i + 1 < kept.size() && kept[i].Crossing == last && kept[i + 1].Crossing == -last &&
+      (kept[i + 1].Point - kept[i].Point).norm() <= this->Spread(kept[i], kept[i + 1], direction))
+    {
+      std::swap(kept[i], kept[i + 1]);
+    }
+    last = kept[i].Crossing != 0 ? kept[i].Crossing : last;
   }
   hits.swap(kept);
 }

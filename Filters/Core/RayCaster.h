@@ -71,7 +71,7 @@ public:
 
   /// The tree over the parts of surfaces, and the face of each: for searches by box.
   const BoxTree& GetTree() const { return this->Tree; }
-  std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.CellFace(part); }
+  std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
 
   /// Trimming, as the queries see it.
   const TrimIndex& GetTrims() const { return this->Trims; }
@@ -86,6 +86,7 @@ private:
 
   bool IsInside(const PatchHit& hit) const;
   void Finish(const Cast& cast, const PatchHit& hit, RayHit& out) const;
+  double Spread(const RayHit& a, const RayHit& b, const Vec3& direction) const;
   void Merge(std::vector<RayHit>& hits, const Vec3& direction) const;
   template <typename Found>
   void Walk(const Cast& cast, double& tMax, const Found& found) const;
