@@ -5,7 +5,8 @@
 /// Source: Schollmeyer and Froehlich, Direct Trimming of NURBS Surfaces on the GPU, 2009: curves are
 /// cut into pieces monotone in u and v (TrimPieces.h), found through a search structure, and a point
 /// is decided by a piece's box, else by bisection of the piece. The structure is ours: a k-d tree
-/// whose cells know what lies to their right, so that a query looks at the pieces of one cell only.
+/// whose cells know what lies to their right, so that a query looks at the pieces of one cell only
+/// (TrimTree.h).
 /// It becomes two texture buffers that nurbsTrim.glsl reads; FaceTrim::Inside takes the same steps in
 /// double precision.
 ///
@@ -20,7 +21,7 @@
 /// boundary that runs along u or v, the lower side belongs to the face and the upper one does not.
 #pragma once
 
-#include "TrimPieces.h"
+#include "TrimTree.h"
 
 namespace nurbs
 {
@@ -42,7 +43,7 @@ public:
   bool Inside(double u, double v) const;
 
   /// True if all of the domain is inside: no texels are needed, FlatTrims gives no start.
-  bool IsWhole() const { return this->Root == AllInside; }
+  bool IsWhole() const { return this->Root == TrimTree::AllInside; }
 
   /// Number of monotone pieces that the structure refers to.
   std::int64_t PieceCount() const { return static_cast<std::int64_t>(this->Pieces.size()); }
@@ -60,22 +61,11 @@ public:
   static constexpr std::int64_t MaxPointTexels = std::int64_t(1) << 23;
 
 private:
-  struct Node
-  {
-    double Split;          ///< Low child: coordinates < Split.
-    int Dir;               ///< 0: of u, 1: of v.
-    std::int32_t Child[2]; ///< Low, high: a node >= 0, AllInside, AllOutside or a leaf (LeafChild).
-  };
-  friend class TrimTreeBuilder;
-
-  std::int32_t Find(Vec2& p) const;
-
-  static constexpr std::int32_t AllOutside = -1;
-  static constexpr std::int32_t AllInside = -2;
+  bool Locate(double u, double v, Vec2& p, std::int32_t& child) const;
 
   Interval U, V;
-  std::int32_t Root = AllInside;
-  std::vector<Node> Nodes;
+  std::int32_t Root = TrimTree::AllInside; ///< A child, as those of nodes.
+  std::vector<TrimTree::Node> Nodes;
   std::vector<TrimPiece> Pieces;
   std::vector<Vec3> Inner;          ///< What TrimPiece::FirstInner points into.
   std::vector<std::int32_t> Leaves; ///< As in the record texels, but with piece numbers.
