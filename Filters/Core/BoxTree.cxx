@@ -69,8 +69,10 @@ struct BoxTree::Builder
       return second - start;
     }
     const std::int64_t middle = (first + last) / 2;
-    std::nth_element(start + first, start + middle, start + last,
-      [&](std::int32_t a, std::int32_t b) { return this->Middles[a][axis] < this->Middles[b][axis]; });
+    std::nth_element(
+      start + first, start + middle, start + last, [&](std::int32_t a, std::int32_t b) {
+        return this->Middles[a][axis] < this->Middles[b][axis];
+      });
     return middle;
   }
 

@@ -67,8 +67,8 @@ private:
 
   struct Builder;
 
-  static bool IsMet(const Node& node, int child, const BoxRay& ray, double tMin, double tMax,
-    double& entry)
+  static bool IsMet(
+    const Node& node, int child, const BoxRay& ray, double tMin, double tMax, double& entry)
   {
     const auto& bounds = node.Bounds[child];
     double near = tMin;
@@ -85,7 +85,8 @@ private:
     return near <= far;
   }
 
-  std::vector<Node> Nodes; ///< The first is the root; if there is one box: its second child is void.
+  std::vector<Node>
+    Nodes; ///< The first is the root; if there is one box: its second child is void.
   std::int64_t Count = 0;
 };
 

@@ -28,8 +28,11 @@ constexpr double Overlap = 1e-11;
 /// Where a ray touches the surface, the piece that can't be told from a double root is about the
 /// square root of the rounding in size; larger ones contain the ray.
 constexpr double TouchSize = 1e-5;
-/// Newton's method ends here, in parameters of the patch.
-constexpr double Converged = 1e-13;
+/// Newton's method ends with a step of this size, in parameters of the patch: the next one would be
+/// of rounding only.
+constexpr double NewtonEnd = 1e-9;
+/// The same for the iteration that contracts by a half.
+constexpr double ChordEnd = 1e-13;
 
 /// The degree - 1 Bernstein polynomials.
 template <int Degree>
@@ -86,8 +89,7 @@ void EvaluatePatch(const Vec4* net, int p, int q, double u, double v, PatchPoint
   const Vec4 low = (1.0 - u) * corner[0][0] + u * corner[1][0];
   const Vec4 high = (1.0 - u) * corner[0][1] + u * corner[1][1];
   out.H = (1.0 - v) * low + v * high;
-  out.D[0] =
-    m * ((1.0 - v) * (corner[1][0] - corner[0][0]) + v * (corner[1][1] - corner[0][1]));
+  out.D[0] = m * ((1.0 - v) * (corner[1][0] - corner[0][0]) + v * (corner[1][1] - corner[0][1]));
   out.D[1] = n * (high - low);
 }
 
@@ -98,11 +100,10 @@ void EvaluatePatch(const Vec4* net, int p, int q, double u, double v, PatchPoint
   if (p <= 3 && q <= 3)
   {
     using Function = void (*)(const Vec4*, int, int, double, double, PatchPoint&);
-    static constexpr Function functions[3][3] = {
-      { &EvaluatePatch<1, 1>, &EvaluatePatch<1, 2>, &EvaluatePatch<1, 3> },
+    static constexpr Function functions[3][3] = { { &EvaluatePatch<1, 1>, &EvaluatePatch<1, 2>,
+                                                    &EvaluatePatch<1, 3> },
       { &EvaluatePatch<2, 1>, &EvaluatePatch<2, 2>, &EvaluatePatch<2, 3> },
-      { &EvaluatePatch<3, 1>, &EvaluatePatch<3, 2>, &EvaluatePatch<3, 3> }
-    };
+      { &EvaluatePatch<3, 1>, &EvaluatePatch<3, 2>, &EvaluatePatch<3, 3> } };
     functions[p - 1][q - 1](net, p, q, u, v, out);
   }
   else
@@ -198,7 +199,9 @@ private:
     }
     // Homogeneous points around the middle; where there is a root, its plane's offset is at most the
     // radius, by which changes of the weight count.
-    const auto local = [&](const Vec4& h) -> Vec3 { return (h.head<3>() - h[3] * cell.Middle) / weight; };
+    const auto local = [&](const Vec4& h) -> Vec3 {
+      return (h.head<3>() - h[3] * cell.Middle) / weight;
+    };
     double variation[2] = { 0.0, 0.0 };
     double bend[2][2] = {}; // largest second differences: derivative; direction that it changes in
     for (int d = 0; d < 2; ++d)
@@ -235,8 +238,7 @@ private:
     const double sine = cell.D[0].cross(cell.D[1]).norm() /
       std::max(length[0] * length[1], std::numeric_limits<double>::min());
     const auto relative = [&](double a, double b) {
-      return (a / std::max(length[0], tiny) + b / std::max(length[1], tiny)) /
-        std::max(sine, 1e-3);
+      return (a / std::max(length[0], tiny) + b / std::max(length[1], tiny)) / std::max(sine, 1e-3);
     };
     dir = relative(bend[0][0], bend[1][0]) >= relative(bend[0][1], bend[1][1]) ? 0 : 1;
     const float infinity = std::numeric_limits<float>::infinity();
@@ -269,8 +271,8 @@ void PatchRays::Build(const Model& model, const ParallelFor& parallel)
     return;
   }
   this->Size = this->Box.diagonal().norm();
-  this->Rounding = 4e-15 *
-    std::max(this->Box.min().cwiseAbs().maxCoeff(), this->Box.max().cwiseAbs().maxCoeff());
+  this->Rounding =
+    4e-15 * std::max(this->Box.min().cwiseAbs().maxCoeff(), this->Box.max().cwiseAbs().maxCoeff());
   const std::int64_t count = static_cast<std::int64_t>(model.Faces.size());
   std::vector<PatchCutter> cut(count, PatchCutter(this->Size));
   parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
@@ -419,7 +421,8 @@ namespace
 {
 
 /// g and, as columns, its derivatives.
-void Project(const PatchPoint& point, const RayPlanes& ray, Vec2& value, Eigen::Matrix2d& derivative)
+void Project(
+  const PatchPoint& point, const RayPlanes& ray, Vec2& value, Eigen::Matrix2d& derivative)
 {
   for (int k = 0; k < 2; ++k)
   {
@@ -444,7 +447,8 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
 {
   constexpr int newtonSteps = 8;
   constexpr int maxSteps = 64;
-  const Vec2 noise(root.Chord.row(0).norm() * this->Rounding, root.Chord.row(1).norm() * this->Rounding);
+  const Vec2 noise(
+    root.Chord.row(0).norm() * this->Rounding, root.Chord.row(1).norm() * this->Rounding);
   const Vec2 slack(std::min(1e-3, Overlap + noise[0]), std::min(1e-3, Overlap + noise[1]));
   Vec2 at = Clamp(root.Start, root.Piece, slack);
   for (int step = 0; step < maxSteps; ++step)
@@ -454,16 +458,16 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
     Eigen::Matrix2d derivative;
     Project(point, ray, value, derivative);
     const double det = derivative.determinant();
-    const bool regular =
+    const bool newton = step < newtonSteps &&
       std::abs(det) > 1e-14 * derivative.col(0).norm() * derivative.col(1).norm();
-    const Vec2 move = regular && step < newtonSteps
-      ? Vec2(Vec2(derivative(1, 1) * value[0] - derivative(0, 1) * value[1],
-          derivative(0, 0) * value[1] - derivative(1, 0) * value[0]) *
-        (1.0 / det))
-      : Vec2(root.Chord * value);
-    if (std::abs(move[0]) <= Converged + noise[0] && std::abs(move[1]) <= Converged + noise[1])
+    const Vec2 move = newton ? Vec2(Vec2(derivative(1, 1) * value[0] - derivative(0, 1) * value[1],
+                                      derivative(0, 0) * value[1] - derivative(1, 0) * value[0]) *
+                                 (1.0 / det))
+                             : Vec2(root.Chord * value);
+    const double enough = newton ? NewtonEnd : ChordEnd;
+    if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {
-      this->AddHit(patch, at, point, false, hits);
+      this->AddHit(patch, at - move, false, hits);
       return;
     }
     const Vec2 last = at;
@@ -509,14 +513,16 @@ void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece
   const Vec2 value(ray.Homogeneous[0].dot(point.H), ray.Homogeneous[1].dot(point.H));
   if (value.norm() <= 10.0 * this->Rounding * point.H[3])
   {
-    this->AddHit(patch, at, point, true, hits);
+    this->AddHit(patch, at, true, hits);
   }
 }
 
-void PatchRays::AddHit(std::int32_t index, const Vec2& at, const PatchPoint& point, bool singular,
-  std::vector<PatchHit>& hits) const
+void PatchRays::AddHit(
+  std::int32_t index, const Vec2& found, bool singular, std::vector<PatchHit>& hits) const
 {
   const Patch& patch = this->Patches[index];
+  const Vec2 at = found.cwiseMax(0.0).cwiseMin(1.0);
+  const PatchPoint point = this->Evaluate(index, at);
   PatchHit hit;
   hit.Patch = index;
   hit.Singular = singular;
@@ -525,8 +531,8 @@ void PatchRays::AddHit(std::int32_t index, const Vec2& at, const PatchPoint& poi
   {
     const Interval& domain = patch.Domain[k];
     hit.UV[k] = domain.Clamp(domain.Min + at[k] * domain.Length());
-    (k == 0 ? hit.Su : hit.Sv) = (point.D[k].head<3>() - point.D[k][3] * hit.Point) /
-      (point.H[3] * domain.Length());
+    (k == 0 ? hit.Su : hit.Sv) =
+      (point.D[k].head<3>() - point.D[k][3] * hit.Point) / (point.H[3] * domain.Length());
   }
   hits.push_back(hit);
 }

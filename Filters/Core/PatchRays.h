@@ -49,8 +49,9 @@ struct PatchHit
   std::int32_t Patch;
   double UV[2]; ///< The surface's parameters, in the patch's part of the domain.
   Vec3 Point;
-  Vec3 Su, Sv;          ///< Derivatives with respect to UV.
-  bool Singular; ///< The ray touches the surface, or meets a pole: Su, Sv and the ray are dependent.
+  Vec3 Su, Sv; ///< Derivatives with respect to UV.
+  bool
+    Singular; ///< The ray touches the surface, or meets a pole: Su, Sv and the ray are dependent.
 };
 
 /// The patches of the surfaces of a model. Constant once built, and safe to use from many threads.
@@ -73,10 +74,7 @@ public:
   const Box3& Bounds() const { return this->Box; }
 
   std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
-  std::int32_t FaceOfCell(std::int32_t cell) const
-  {
-    return this->FaceOf(this->Cells[cell].Patch);
-  }
+  std::int32_t FaceOfCell(std::int32_t cell) const { return this->FaceOf(this->Cells[cell].Patch); }
 
   /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border of
   /// cells, or within rounding of it, is found by each of them. Where a ray runs within the surface
@@ -103,11 +101,12 @@ private:
   /// A part of a patch that is nearly flat.
   struct Cell
   {
-    Vec3 Middle;      ///< The point in the middle of its parameters.
-    Vec3 D[2];        ///< Derivatives there with respect to the cell's own parameters in [0, 1].
-    float Variation[2]; ///< Bound on how much g's derivatives differ from those of the tangent plane.
-    float Weight;       ///< At Middle.
-    float Radius;       ///< Of a ball around Middle that holds the cell.
+    Vec3 Middle; ///< The point in the middle of its parameters.
+    Vec3 D[2];   ///< Derivatives there with respect to the cell's own parameters in [0, 1].
+    float
+      Variation[2]; ///< Bound on how much g's derivatives differ from those of the tangent plane.
+    float Weight;   ///< At Middle.
+    float Radius;   ///< Of a ball around Middle that holds the cell.
     float Low[2], High[2]; ///< The cell's part of the patch, exact (dyadic).
     std::int32_t Patch;
   };
@@ -119,8 +118,7 @@ private:
     std::vector<PatchHit>& hits) const;
   void Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece& piece,
     std::vector<PatchHit>& hits) const;
-  void AddHit(std::int32_t patch, const Vec2& at, const PatchPoint& point, bool singular,
-    std::vector<PatchHit>& hits) const;
+  void AddHit(std::int32_t patch, const Vec2& at, bool singular, std::vector<PatchHit>& hits) const;
 
   std::vector<Patch> Patches;
   std::vector<Vec4> Points; ///< Homogeneous; the largest weight of a patch is 1.

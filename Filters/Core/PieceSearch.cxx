@@ -39,8 +39,7 @@ constexpr MiddleWeights AtMiddle;
 
 } // namespace
 
-PieceSearch::PieceSearch(
-  const Vec4* net, int p, int q, const Vec4 (&planes)[2], double noise)
+PieceSearch::PieceSearch(const Vec4* net, int p, int q, const Vec4 (&planes)[2], double noise)
   : Degree{ p, q }
   , Size((p + 1) * (q + 1))
   , Noise(noise)
@@ -245,8 +244,7 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
   {
     for (int i = 0; i < width; ++i)
     {
-      const double weight =
-        AtMiddle.Value[this->Degree[0]][i] * AtMiddle.Value[this->Degree[1]][j];
+      const double weight = AtMiddle.Value[this->Degree[0]][i] * AtMiddle.Value[this->Degree[1]][j];
       value += weight * Vec2(net[i + j * width], net[this->Size + i + j * width]);
     }
   }

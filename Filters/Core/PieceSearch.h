@@ -57,7 +57,7 @@ private:
   Verdict Contract(const double* net, const PatchPiece& piece, int& dir);
 
   int Degree[2];
-  int Size;      ///< Control points.
+  int Size; ///< Control points.
   double Noise;
   std::vector<double> Nets; ///< A stack: all first components of a piece, then all second ones.
   std::vector<PatchPiece> Pieces;

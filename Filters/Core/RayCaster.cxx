@@ -189,9 +189,8 @@ void RayCaster::All(const Ray& ray, std::vector<RayHit>& hits) const
     hits.emplace_back();
     this->Finish(cast, found, hits.back());
   });
-  std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
-    return a.T != b.T ? a.T < b.T : a.Face < b.Face;
-  });
+  std::sort(hits.begin(), hits.end(),
+    [](const RayHit& a, const RayHit& b) { return a.T != b.T ? a.T < b.T : a.Face < b.Face; });
   this->Merge(hits, cast.Planes.Direction);
 }
 
@@ -201,7 +200,8 @@ double RayCaster::Spread(const RayHit& a, const RayHit& b, const Vec3& direction
   const double cosine =
     std::min(std::abs(a.Normal.dot(direction)), std::abs(b.Normal.dot(direction)));
   return SamePart * this->Bounds().diagonal().norm() +
-    4.0 * (this->Tolerance[a.Face] + this->Tolerance[b.Face]) / std::max(cosine, 1e-3);
+    4.0 * (this->Tolerance[a.Face] + this->Tolerance[b.Face]) / std::max(cosine, 1e-3) +
+    16.0 * this->Surfaces.GetRounding() / std::max(cosine, 1e-8);
 }
 
 /// Leaves one hit of those that are at one place and cross in one direction. Two that remain there
