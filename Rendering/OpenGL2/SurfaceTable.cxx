@@ -37,6 +37,22 @@ bool IsOpen(const KnotView& knots, int degree, double knot, const Interval& doma
     std::count(knots.begin(), knots.end(), knot) >= degree;
 }
 
+// Parameters that cut the spans of a rational surface, whose bounds are tight over short pieces only.
+std::vector<double> LinesWithin(const SurfaceView& view, const std::vector<Interval>& spans, int dir)
+{
+  constexpr int Pieces = 4;
+  std::vector<double> lines;
+  const Interval domain = view.Domain(dir);
+  for (const Interval& span : spans)
+  {
+    for (int k = 1; k < Pieces && view.IsRational(); ++k)
+    {
+      lines.push_back(domain.Min + (span.Min + k * span.Length() / Pieces) * domain.Length());
+    }
+  }
+  return lines;
+}
+
 } // namespace
 
 int SurfaceTable::Add(const SurfaceView& view, const Box2& used)
@@ -167,7 +183,12 @@ void SurfaceTable::FillBounds(TableSurface& surface)
   surface.Patches.resize(std::size_t(count[0]) * count[1]);
   const Interval u = view.Domain(0), v = view.Domain(1);
   SurfaceBound bound(view, { u.Min, u.Max, v.Min, v.Max });
-  bound.MakeGrid({}, {}, SerialFor);
+  std::vector<double> lines[2];
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    lines[dir] = LinesWithin(view, surface.Spans[dir], dir);
+  }
+  bound.MakeGrid(lines[0], lines[1], SerialFor);
   surface.Bounds.setEmpty();
   for (int j = surface.Used[1][0]; j < surface.Used[1][1]; ++j)
   {
