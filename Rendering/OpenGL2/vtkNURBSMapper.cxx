@@ -438,8 +438,9 @@ void vtkNURBSMapper::ReplaceShaderValues(
       "//VTK::PositionVC::Dec");
   substitute(fragment, "//VTK::UniformFlow::Impl",
     "  nurbsBeginFragment();\n  //VTK::UniformFlow::Impl\n");
-  substitute(fragment, "//VTK::Clip::Impl",
-    "  if (!nurbsIsInside()) { discard; }\n  //VTK::Clip::Impl\n");
+  // Before depth peeling, which looks at the depth of what stays.
+  substitute(fragment, "//VTK::Depth::Impl",
+    "  if (!nurbsIsInside()) { discard; }\n  //VTK::Depth::Impl\n");
   substitute(fragment, "//VTK::Color::Impl",
     "  //VTK::Color::Impl\n"
     "  nurbsColor(ambientIntensity, diffuseIntensity, ambientColor, diffuseColor, opacity);\n");
@@ -459,9 +460,11 @@ void vtkNURBSMapper::ReplaceShaderValues(
 
   if (exact)
   {
-    // The surface's own normal and side, instead of the triangles'.
+    // The surface's own normal, side and depth, instead of the triangles'.
     fragment = shaders[vtkShader::Fragment]->GetSource();
+    substitute(fragment, "//VTK::Depth::Impl", "gl_FragDepth = gl_FragCoord.z;");
     substitute(fragment, "gl_FrontFacing", "nurbsFront");
+    substitute(fragment, "gl_FragCoord.z", "nurbsDepth");
     substitute(fragment, "vec3 normalVCVSOutput = normalize(normalVCVSOutput);",
       "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
     substitute(fragment, "  nurbsBeginFragment();\n",

@@ -33,11 +33,15 @@ std::array<int, 4> Encode(const nurbs::Tile& tile, const nurbs::TileAtlas::Slot&
     pack(tile.Span[0], tile.Span[1]), pack(tile.First[0], tile.First[1]) };
 }
 
-void AppendOrigin(std::vector<float>& origins, const nurbs::Vec3& origin, double tolerance)
+void AppendOrigin(
+  std::vector<float>& origins, const nurbs::TableSurface& surface, double tolerance)
 {
+  const nurbs::Vec3& origin = surface.Origin;
   const Eigen::Vector3f high = origin.cast<float>();
   const Eigen::Vector3f low = (origin - high.cast<double>()).cast<float>();
-  origins.insert(origins.end(), { high[0], high[1], high[2], float(tolerance), low[0], low[1], low[2], 0.0f });
+  origins.insert(origins.end(), 
+    { high[0], high[1], high[2], float(tolerance), low[0], low[1],
+    low[2], float(surface.Radius) });
 }
 
 } // namespace
@@ -76,7 +80,7 @@ bool vtkNURBSTileTextures::SetTable(vtkOpenGLRenderWindow* window, const nurbs::
       { s.FirstPoint, s.View.Count[0],
         s.View.Degree[0] | s.View.Degree[1] << 8 | (infos[i].Reversed ? 1 << 16 : 0), 0,
         s.FirstBlock[0], s.FirstBlock[1], infos[i].Trim, 0 });
-    AppendOrigin(origins, s.Origin, infos[i].Tolerance);
+    AppendOrigin(origins, s, infos[i].Tolerance);
   }
   this->Infos = infos;
   this->Atlas.Clear();
@@ -105,7 +109,7 @@ void vtkNURBSTileTextures::MoveSurfaces(
     std::size_t points = 0;
     for (end = i; end < surfaces.size() && surfaces[end] == surfaces[i] + int(end - i); ++end)
     {
-      AppendOrigin(origins, table[surfaces[end]].Origin, this->Infos[surfaces[end]].Tolerance);
+      AppendOrigin(origins, table[surfaces[end]], this->Infos[surfaces[end]].Tolerance);
       points += table[surfaces[end]].View.Size();
     }
     const std::size_t first = table[surfaces[i]].FirstPoint;

@@ -11,7 +11,6 @@ uniform vec3 nurbsShiftHigh;
 uniform vec3 nurbsShiftLow;
 uniform mat4 nurbsToClip;   // from vertexMC
 uniform vec4 nurbsViewport; // x, y, width, height in pixels
-uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 
 // Homogeneous point and derivatives with respect to the patch's own parameters.
 struct nurbsJet
@@ -102,7 +101,7 @@ nurbsJet nurbsEvaluate(nurbsTileInfo tile, vec2 t)
 // that their values, over the clip coordinate w, are pixels.
 struct nurbsRay
 {
-  vec4 x, y, w;
+  vec4 x, y, z, w;
 };
 
 nurbsRay nurbsGetRay(int surface)
@@ -112,41 +111,36 @@ nurbsRay nurbsGetRay(int surface)
   nurbsRay ray;
   ray.x = 0.5 * nurbsViewport.z * (m[0] - ndc.x * m[3]);
   ray.y = 0.5 * nurbsViewport.w * (m[1] - ndc.y * m[3]);
+  ray.z = m[2];
   ray.w = m[3];
   vec3 origin = (texelFetch(nurbsOrigins, 2 * surface).xyz - nurbsShiftHigh) +
     (texelFetch(nurbsOrigins, 2 * surface + 1).xyz - nurbsShiftLow);
   ray.x.w += dot(ray.x.xyz, origin);
   ray.y.w += dot(ray.y.xyz, origin);
+  ray.z.w += dot(ray.z.xyz, origin);
   ray.w.w += dot(ray.w.xyz, origin);
   return ray;
 }
 
-// The direction away from the eye.
-vec3 nurbsGetSight(int surface)
+// From parameters near the hit to the hit, with the change on screen, in pixels, with t, and the
+// pixels of a unit of length there. False if the ray passes the surface by.
+// noise: pixels of rounding errors in single precision.
+bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, out mat2 pixels,
+  out float perUnit, out float noise)
 {
-  nurbsRay ray = nurbsGetRay(surface);
-  vec3 sight = cross(ray.x.xyz, ray.y.xyz);
-  return dot(sight, nurbsDepthAxis) < 0.0 ? -sight : sight;
-}
-
-// From parameters near the hit to the hit, with the change on screen, in pixels, with t. False if the
-// ray passes the surface by. perUnit: pixels of a unit of length there.
-bool nurbsHit(
-  nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, out mat2 pixels, out float perUnit)
-{
-  nurbsRay ray = nurbsGetRay(tile.surface);
-  float miss = 0.0;
-  for (int i = 0; i < 6; ++i)
+  float radius = texelFetch(nurbsOrigins, 2 * tile.surface + 1).w;
+  for (int i = 0; i < 12; ++i)
   {
     jet = nurbsEvaluate(tile, t);
     vec2 f = vec2(dot(ray.x, jet.h), dot(ray.y, jet.h));
     vec2 fu = vec2(dot(ray.x, jet.hu), dot(ray.y, jet.hu));
     vec2 fv = vec2(dot(ray.x, jet.hv), dot(ray.y, jet.hv));
     float w = dot(ray.w, jet.h);
-    miss = length(f) / abs(w);
+    float miss = length(f) / abs(w);
     pixels = mat2(fu, fv) / w;
     perUnit = length(ray.x.xyz) * jet.h.w / w;
-    if (miss < 0.002)
+    noise = 2e-7 * radius * perUnit;
+    if (miss < 0.001 + noise)
     {
       return true;
     }
@@ -159,5 +153,5 @@ bool nurbsHit(
     // No further than a patch: beyond it the polynomials mean nothing.
     t = clamp(t - clamp(step, -0.5, 0.5), -0.25, 1.25);
   }
-  return miss < 0.05;
+  return false;
 }

@@ -10,8 +10,11 @@ vec2 nurbsST; // place in the face's domain, 0 to 1
 
 bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 #ifdef NURBS_EXACT
+uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 nurbsJet nurbsHere;
 mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
+float nurbsDepth;   // of the surface, 0 to 1
+vec3 nurbsSight;    // direction away from the eye
 float nurbsGap;     // pixels that this face may be off its neighbours at an edge
 #endif
 
@@ -25,10 +28,14 @@ void nurbsBeginFragment()
   vec2 t = nurbsT;
 #ifdef NURBS_EXACT
   mat2 pixels; // change on screen with t
-  float perUnit;
-  nurbsIsSurface = nurbsHit(nurbsFaceTile, t, nurbsHere, pixels, perUnit);
+  float perUnit, noise;
+  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface);
+  nurbsIsSurface = nurbsHit(ray, nurbsFaceTile, t, nurbsHere, pixels, perUnit, noise);
+  nurbsDepth = 0.5 + 0.5 * dot(ray.z, nurbsHere.h) / dot(ray.w, nurbsHere.h);
+  nurbsSight = cross(ray.x.xyz, ray.y.xyz);
+  nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
   float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
-  nurbsGap = 0.01 + min(tolerance * perUnit, 0.5);
+  nurbsGap = noise + min(tolerance * perUnit, 0.5);
   for (int dir = 0; dir < 2; ++dir)
   {
     // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
@@ -92,7 +99,7 @@ vec3 nurbsNormal(vec3 interpolated)
 // Whether the outside is seen.
 bool nurbsSeesFront(vec3 normal)
 {
-  return dot(normal, nurbsGetSight(nurbsFaceTile.surface)) < 0.0;
+  return dot(normal, nurbsSight) < 0.0;
 }
 
 #endif
