@@ -10,6 +10,7 @@ vec2 nurbsST; // place in the face's domain, 0 to 1
 
 bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 #ifdef NURBS_EXACT
+uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 nurbsJet nurbsHere;
 mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
@@ -39,13 +40,12 @@ void nurbsBeginFragment()
   for (int dir = 0; dir < 2; ++dir)
   {
     // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
-    // patch that the pixel sees.
+    // patch that the pixel sees. Beyond other sides the next patch goes on as this one does.
     int sides = int(texelFetch(nurbsKnots, block[dir] + 3).r);
-    float slack = nurbsGap / max(length(pixels[dir]), 1e-30);
-    if (((sides & 1) != 0 && t[dir] < -slack) || ((sides & 2) != 0 && t[dir] > 1.0 + slack))
-    {
-      nurbsIsSurface = false;
-    }
+    float perPixel = 1.0 / max(length(pixels[dir]), 1e-30);
+    float low = perPixel * ((sides & 1) != 0 ? nurbsGap : nurbsMargin);
+    float high = perPixel * ((sides & 2) != 0 ? nurbsGap : nurbsMargin);
+    nurbsIsSurface = nurbsIsSurface && t[dir] >= -low && t[dir] <= 1.0 + high;
   }
   nurbsPerPixel = inverse(pixels);
   nurbsPerPixel[0] *= size;

@@ -52,7 +52,7 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
   mat4 m = transpose(nurbsToClip);
   vec3 sight = normalize(cross(c.w * m[0].xyz - c.x * m[3].xyz, c.w * m[1].xyz - c.y * m[3].xyz));
   vec3 shift = vec3(0.0);
-  float reach = nurbsMargin; // over borders
+  bool moved = false;
   if (abs(dot(normal, sight)) < 0.75)
   {
     float e = dot(step[0], step[0]), f = dot(step[0], step[1]), g = dot(step[1], step[1]);
@@ -60,14 +60,16 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     vec2 along = vec2(g * x - f * y, e * y - f * x); // times e g - f^2 >= 0
     float bend = dot(along.x * turn[0] + along.y * turn[1], along.x * step[0] + along.y * step[1]);
     shift += sign(bend) * nurbsMargin / max(nurbsPixels(c, normal), 1e-30) * normal;
-    reach += nurbsMargin; // the other end of what moves outwards must not be laid bare
+    moved = true;
   }
   for (int dir = 0; dir < 2; ++dir)
   {
-    int sides = int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
-    int at = tile.first[dir] + k[dir];
-    float outwards = at == 0 && (sides & 1) != 0 ? -1.0
-      : at == 1 << tile.level[dir] && (sides & 2) != 0 ? 1.0 : 0.0;
+    // What has moved along the normal reaches over every border of the tile, lest it bare something.
+    int sides = moved ? 3 : int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
+    int at = moved ? k[dir] : tile.first[dir] + k[dir];
+    int end = moved ? cells[dir] : 1 << tile.level[dir];
+    float outwards = at == 0 && (sides & 1) != 0 ? -1.0 : at == end && (sides & 2) != 0 ? 1.0 : 0.0;
+    float reach = moved ? 2.0 * nurbsMargin : nurbsMargin;
     float pixels = nurbsPixels(c, step[dir]);
     if (outwards != 0.0 && pixels > 1e-3)
     {
