@@ -30,11 +30,30 @@ Eigen::AlignedBox3f ControlBox(const SurfaceView& view, int i, int j, const Vec3
   return box;
 }
 
-// True if the surface ends at a knot, or may have a crease there.
-bool IsOpen(const KnotView& knots, int degree, double knot, const Interval& domain)
+// True if the two borders across a direction are one curve, over which the surface is smooth.
+bool IsSmoothSeam(const SurfaceView& view, int dir, double size)
 {
-  return knot <= domain.Min || knot >= domain.Max ||
-    std::count(knots.begin(), knots.end(), knot) >= degree;
+  constexpr int Samples = 8;
+  constexpr double Tolerance = 1e-9;
+  const Interval across = view.Domain(dir), along = view.Domain(1 - dir);
+  for (int k = 0; k <= Samples; ++k)
+  {
+    const double s = along.Min + along.Length() * k / Samples;
+    SurfaceDerivatives side[2];
+    for (int end = 0; end < 2; ++end)
+    {
+      const double t = end == 0 ? across.Min : across.Max;
+      side[end] = EvaluateDerivatives(view, dir == 0 ? t : s, dir == 0 ? s : t, 1);
+    }
+    const Vec3& before = dir == 0 ? side[1].Su : side[1].Sv;
+    const Vec3& after = dir == 0 ? side[0].Su : side[0].Sv;
+    if ((side[0].S - side[1].S).norm() > Tolerance * size ||
+      (before - after).norm() > 1e-6 * (before.norm() + after.norm()))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Parameters that cut the spans of a rational surface, whose bounds are tight over short pieces only.
@@ -107,8 +126,7 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
     this->Knots.push_back(static_cast<float>(share.Min));
     this->Knots.push_back(static_cast<float>(share.Length()));
     this->Knots.push_back(static_cast<float>(k - degree));
-    this->Knots.push_back((IsOpen(knots, degree, knots[k], domain) ? 1.0f : 0.0f) +
-      (IsOpen(knots, degree, knots[k + 1], domain) ? 2.0f : 0.0f));
+    this->Knots.push_back(0.0f); // see FillSides
     for (int m = 0; m < 2 * degree; ++m)
     {
       this->Knots.push_back(static_cast<float>((knots[k - degree + 1 + m] - knots[k]) / length));
@@ -189,6 +207,7 @@ void SurfaceTable::FillBounds(TableSurface& surface)
     lines[dir] = LinesWithin(view, surface.Spans[dir], dir);
   }
   bound.MakeGrid(lines[0], lines[1], SerialFor);
+  this->FillSides(surface, bound);
   surface.Bounds.setEmpty();
   for (int j = surface.Used[1][0]; j < surface.Used[1][1]; ++j)
   {
@@ -208,6 +227,32 @@ void SurfaceTable::FillBounds(TableSurface& surface)
         float(second.Greatest(2) * box.B() * box.B()) };
       surface.Bounds.extend(patch.Box.min().cast<double>() + surface.Origin);
       surface.Bounds.extend(patch.Box.max().cast<double>() + surface.Origin);
+    }
+  }
+}
+
+// Which sides of the spans are open: the surface ends there, or has a crease.
+void SurfaceTable::FillSides(TableSurface& surface, const SurfaceBound& bound)
+{
+  const SurfaceView& view = surface.View;
+  surface.SidesChanged = false;
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const bool closed = IsSmoothSeam(view, dir, 2.0 * surface.Radius);
+    const Interval domain = view.Domain(dir);
+    const std::vector<Interval>& spans = surface.Spans[dir];
+    const auto isOpen = [&](double share)
+    {
+      return share <= 0.0 || share >= 1.0
+        ? !closed
+        : bound.IsCrease(dir, domain.Min + share * domain.Length());
+    };
+    for (std::size_t k = 0; k < spans.size(); ++k)
+    {
+      float& sides = this->Knots[surface.FirstBlock[dir] + k * surface.BlockSize(dir) + 3];
+      const float now = (isOpen(spans[k].Min) ? 1.0f : 0.0f) + (isOpen(spans[k].Max) ? 2.0f : 0.0f);
+      surface.SidesChanged = surface.SidesChanged || sides != now;
+      sides = now;
     }
   }
 }

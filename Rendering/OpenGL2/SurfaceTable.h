@@ -17,6 +17,8 @@
 namespace nurbs
 {
 
+class SurfaceBound;
+
 /// Bounds of one pair of spans (a "patch" of the surface).
 struct PatchBound
 {
@@ -35,6 +37,7 @@ struct TableSurface
   double Radius = -1.0;               ///< Half the diagonal of the control points' box.
   Box3 Bounds;                        ///< Of the used patches, in model coordinates.
   std::vector<Interval> Spans[2];     ///< Non-empty knot spans, as shares of the domain.
+  bool SidesChanged = false;          ///< By the last Move: blocks of Knots are new.
   int Used[2][2] = { { 0, 0 }, { 0, 0 } }; ///< First and end of the spans that trims leave over.
   std::vector<PatchBound> Patches;    ///< Spans[0].size() x Spans[1].size(), u fastest.
 
@@ -72,13 +75,14 @@ public:
   const std::vector<float>& GetPoints() const { return this->Points; }
   /// Blocks, one a span: start and length of the span as shares of the domain, index of the first
   /// control point in this direction, its open sides (1: the start, 2: the end, where the surface
-  /// ends or may have a crease), then the 2 p knots around the span relative to it.
+  /// ends or has a crease), then the 2 p knots around the span relative to it.
   const std::vector<float>& GetKnots() const { return this->Knots; }
 
 private:
   void AddSpans(TableSurface& surface, int dir, Interval used);
   bool FillPoints(TableSurface& surface);
   void FillBounds(TableSurface& surface);
+  void FillSides(TableSurface& surface, const SurfaceBound& bound);
 
   std::vector<TableSurface> Surfaces;
   std::vector<float> Points;

@@ -111,6 +111,16 @@ void vtkNURBSTileTextures::MoveSurfaces(
     {
       AppendOrigin(origins, table[surfaces[end]], this->Infos[surfaces[end]].Tolerance);
       points += table[surfaces[end]].View.Size();
+      if (table[surfaces[end]].SidesChanged)
+      {
+        const nurbs::TableSurface& surface = table[surfaces[end]];
+        for (int dir = 0; dir < 2; ++dir)
+        {
+          this->Knots.Replace(sizeof(float) * std::size_t(surface.FirstBlock[dir]),
+            table.GetKnots().data() + surface.FirstBlock[dir],
+            sizeof(float) * surface.Spans[dir].size() * surface.BlockSize(dir));
+        }
+      }
     }
     const std::size_t first = table[surfaces[i]].FirstPoint;
     this->Points.Replace(16 * first, table.GetPoints().data() + 4 * first, 16 * points);

@@ -140,16 +140,17 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, 
     pixels = mat2(fu, fv) / w;
     perUnit = length(ray.x.xyz) * jet.h.w / w;
     noise = 2e-7 * radius * perUnit;
-    if (miss < 0.001 + noise)
-    {
-      return true;
-    }
     float det = fu.x * fv.y - fu.y * fv.x;
     if (det == 0.0)
     {
       break;
     }
     vec2 step = vec2(f.x * fv.y - f.y * fv.x, fu.x * f.y - fu.y * f.x) / det;
+    if (miss < 0.01 + noise)
+    {
+      t -= step; // what is left is the square of that
+      return true;
+    }
     // No further than a patch: beyond it the polynomials mean nothing.
     t = clamp(t - clamp(step, -0.5, 0.5), -0.25, 1.25);
   }

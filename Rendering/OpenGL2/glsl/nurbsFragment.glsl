@@ -37,19 +37,20 @@ void nurbsBeginFragment()
   nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
   float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
   nurbsGap = noise + min(tolerance * perUnit, 0.5);
+  mat2 perPixelT = inverse(pixels);
   for (int dir = 0; dir < 2; ++dir)
   {
     // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
     // patch that the pixel sees. Beyond other sides the next patch goes on as this one does.
     int sides = int(texelFetch(nurbsKnots, block[dir] + 3).r);
-    float perPixel = 1.0 / max(length(pixels[dir]), 1e-30);
-    float low = perPixel * ((sides & 1) != 0 ? nurbsGap : nurbsMargin);
-    float high = perPixel * ((sides & 2) != 0 ? nurbsGap : nurbsMargin);
+    float perPixel = length(vec2(perPixelT[0][dir], perPixelT[1][dir]));
+    float open = perPixel * nurbsGap;
+    float smoothly = min(2.0 * perPixel * nurbsMargin, 0.25);
+    float low = (sides & 1) != 0 ? open : smoothly;
+    float high = (sides & 2) != 0 ? open : smoothly;
     nurbsIsSurface = nurbsIsSurface && t[dir] >= -low && t[dir] <= 1.0 + high;
   }
-  nurbsPerPixel = inverse(pixels);
-  nurbsPerPixel[0] *= size;
-  nurbsPerPixel[1] *= size;
+  nurbsPerPixel = mat2(perPixelT[0] * size, perPixelT[1] * size);
 #endif
   nurbsST = start + t * size;
 }

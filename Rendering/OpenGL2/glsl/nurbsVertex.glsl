@@ -73,7 +73,7 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     float pixels = nurbsPixels(c, step[dir]);
     if (outwards != 0.0 && pixels > 1e-3)
     {
-      float cellsOut = outwards * min(reach / pixels, 8.0);
+      float cellsOut = outwards * min(reach / pixels, 64.0);
       shift += cellsOut * step[dir];
       nurbsT[dir] += cellsOut / float(1 << tile.level[dir]);
     }
