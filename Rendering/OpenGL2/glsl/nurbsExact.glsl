@@ -129,13 +129,18 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, 
   out float perUnit, out float noise)
 {
   float radius = texelFetch(nurbsOrigins, 2 * tile.surface + 1).w;
-  for (int i = 0; i < 12; ++i)
+  vec2 last = t;
+  float side = 0.0; // on which side of the outline the search began
+  for (int i = 0; i < 16; ++i)
   {
     jet = nurbsEvaluate(tile, t);
     vec2 f = vec2(dot(ray.x, jet.h), dot(ray.y, jet.h));
     vec2 fu = vec2(dot(ray.x, jet.hu), dot(ray.y, jet.hu));
     vec2 fv = vec2(dot(ray.x, jet.hv), dot(ray.y, jet.hv));
     float w = dot(ray.w, jet.h);
+    // Derivatives of the place on screen, by the quotient rule.
+    fu -= f * (dot(ray.w, jet.hu) / w);
+    fv -= f * (dot(ray.w, jet.hv) / w);
     float miss = length(f) / abs(w);
     pixels = mat2(fu, fv) / w;
     perUnit = length(ray.x.xyz) * jet.h.w / w;
@@ -146,12 +151,19 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, 
       break;
     }
     vec2 step = vec2(f.x * fv.y - f.y * fv.x, fu.x * f.y - fu.y * f.x) / det;
-    if (miss < 0.01 + noise)
+    if (miss < 0.002 + noise)
     {
-      t -= step; // what is left is the square of that
+      t -= clamp(step, -0.01, 0.01); // what is left is the square of that
       return true;
     }
+    side = i == 0 ? sign(det) : side;
+    if (sign(det) != side)
+    {
+      t = mix(last, t, 0.25); // the step led over the outline, where another point is
+      continue;
+    }
     // No further than a patch: beyond it the polynomials mean nothing.
+    last = t;
     t = clamp(t - clamp(step, -0.5, 0.5), -0.25, 1.25);
   }
   return false;

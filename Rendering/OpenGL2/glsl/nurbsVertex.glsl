@@ -21,11 +21,11 @@ out vec2 nurbsT; // parameters in the patch's spans
 
 #ifdef NURBS_EXACT
 
-// Pixels that a step from a point with clip coordinates c covers on screen.
-float nurbsPixels(vec4 c, vec3 direction)
+// A step from a point with clip coordinates c, in pixels on screen.
+vec2 nurbsOnScreen(vec4 c, vec3 direction)
 {
   vec4 d = nurbsToClip * vec4(direction, 0.0);
-  return length(0.5 * nurbsViewport.zw * (d.xy - c.xy / c.w * d.w)) / c.w;
+  return 0.5 * nurbsViewport.zw * (d.xy - c.xy / c.w * d.w) / c.w;
 }
 
 // Moves a vertex, so that the triangles cover every pixel that the surface covers: outwards along
@@ -59,9 +59,11 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     float x = dot(sight, step[0]), y = dot(sight, step[1]);
     vec2 along = vec2(g * x - f * y, e * y - f * x); // times e g - f^2 >= 0
     float bend = dot(along.x * turn[0] + along.y * turn[1], along.x * step[0] + along.y * step[1]);
-    shift += sign(bend) * nurbsMargin / max(nurbsPixels(c, normal), 1e-30) * normal;
+    shift += sign(bend) * nurbsMargin / max(length(nurbsOnScreen(c, normal)), 1e-30) * normal;
     moved = true;
   }
+  vec2 screen[2] = vec2[2](nurbsOnScreen(c, step[0]), nurbsOnScreen(c, step[1]));
+  float area = abs(screen[0].x * screen[1].y - screen[0].y * screen[1].x);
   for (int dir = 0; dir < 2; ++dir)
   {
     // What has moved along the normal reaches over every border of the tile, lest it bare something.
@@ -70,10 +72,11 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
     int end = moved ? cells[dir] : 1 << tile.level[dir];
     float outwards = at == 0 && (sides & 1) != 0 ? -1.0 : at == end && (sides & 2) != 0 ? 1.0 : 0.0;
     float reach = moved ? 2.0 * nurbsMargin : nurbsMargin;
-    float pixels = nurbsPixels(c, step[dir]);
-    if (outwards != 0.0 && pixels > 1e-3)
+    // Pixels of a cell across the border, which a step outwards need not be on screen.
+    float pixels = area / max(length(screen[1 - dir]), 1e-6 * length(screen[dir]));
+    if (outwards != 0.0 && length(screen[dir]) > 0.0)
     {
-      float cellsOut = outwards * min(reach / pixels, 64.0);
+      float cellsOut = outwards * min(reach / max(pixels, 1e-30), 64.0);
       shift += cellsOut * step[dir];
       nurbsT[dir] += cellsOut / float(1 << tile.level[dir]);
     }
