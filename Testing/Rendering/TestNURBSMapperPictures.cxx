@@ -37,7 +37,6 @@ struct Scene
   explicit Scene(vtkDataObject* model)
   {
     this->Mapper->SetInputData(model);
-    if (getenv("NOEX")) this->Mapper->ExactFragmentsOff();
     this->Actor->SetMapper(this->Mapper);
     this->Renderer->AddActor(this->Actor);
     this->Renderer->SetBackground(0.1, 0.2, 0.4);
@@ -117,7 +116,6 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
         }
       }
       const bool same = faces[k] == rays[k].Face;
-      if (getenv("DBG") && (faces[k] < 0) != (rays[k].Face < 0)) printf("cov %d %d pic %d ray %d\n", x, y, faces[k], rays[k].Face);
       result.Covered += (faces[k] < 0) != (rays[k].Face < 0);
       result.Faces += faces[k] >= 0 && rays[k].Face >= 0 && !same;
       if (same && faces[k] >= 0)
@@ -127,8 +125,7 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
         const nurbs::Vec3 along =
           reference.PixelRay(scene.Renderer, x + 0.5, y + 0.5).Direction;
         double ee = std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d);
-        if (getenv("DBG") && ee > 0.5) printf("depth %d %d face %d: %g  n.d %g\n", x, y, faces[k], ee, along.dot(rays[k].Normal));
-        result.Depth = std::max(result.Depth,
+          result.Depth = std::max(result.Depth,
           std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d));
       }
     }
