@@ -6,89 +6,135 @@ flat in int nurbsTileIndex;
 in vec2 nurbsT;
 
 nurbsTileInfo nurbsFaceTile;
-vec2 nurbsST; // place in the face's domain, 0 to 1
+vec2 nurbsStart; // of the patch in the face's domain, 0 to 1
+vec2 nurbsSize;
 
-bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 #ifdef NURBS_EXACT
+
 uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
-nurbsJet nurbsHere;
-mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
-float nurbsDepth;   // of the surface, 0 to 1
-vec3 nurbsSight;    // direction away from the eye
-float nurbsGap;     // pixels that this face may be off its neighbours at an edge
-#endif
 
-// Sets the variables above; called in uniform control flow.
-void nurbsBeginFragment()
+nurbsFound nurbsHere; // the point that this fragment shows
+float nurbsDepth;     // its depth, 0 to 1
+vec3 nurbsSight;      // direction away from the eye
+mat2 nurbsPerPixel;   // change of t with x and y on screen
+
+void nurbsShow(nurbsRay ray, nurbsFound found)
 {
-  nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
-  ivec2 block = nurbsFaceTile.block;
-  vec2 start = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
-  vec2 size = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
-  vec2 t = nurbsT;
-#ifdef NURBS_EXACT
-  mat2 pixels; // change on screen with t
-  float perUnit, noise;
-  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface);
-  nurbsIsSurface = nurbsHit(ray, nurbsFaceTile, t, nurbsHere, pixels, perUnit, noise);
-  nurbsDepth = 0.5 + 0.5 * dot(ray.z, nurbsHere.h) / dot(ray.w, nurbsHere.h);
+  nurbsHere = found;
+  nurbsPerPixel = inverse(found.pixels);
+  nurbsDepth = 0.5 + 0.5 * dot(ray.z, found.jet.h) / dot(ray.w, found.jet.h);
   nurbsSight = cross(ray.x.xyz, ray.y.xyz);
   nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
+}
+
+// Pixels that this face may be off its neighbours at an edge.
+float nurbsGap()
+{
   float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
-  nurbsGap = noise + min(tolerance * perUnit, 0.5);
-  mat2 perPixelT = inverse(pixels);
+  return nurbsHere.noise + min(tolerance * nurbsHere.perUnit, 0.5);
+}
+
+// Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this patch
+// that is seen. Beyond other sides the next patch goes on as this one does.
+bool nurbsIsOnPatch(vec2 t)
+{
   for (int dir = 0; dir < 2; ++dir)
   {
-    // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
-    // patch that the pixel sees. Beyond other sides the next patch goes on as this one does.
-    int sides = int(texelFetch(nurbsKnots, block[dir] + 3).r);
-    float perPixel = length(vec2(perPixelT[0][dir], perPixelT[1][dir]));
-    float open = perPixel * nurbsGap;
+    int sides = int(texelFetch(nurbsKnots, nurbsFaceTile.block[dir] + 3).r);
+    float perPixel = length(vec2(nurbsPerPixel[0][dir], nurbsPerPixel[1][dir]));
+    float open = perPixel * nurbsGap();
     float smoothly = min(2.0 * perPixel * nurbsMargin, 0.25);
     float low = (sides & 1) != 0 ? open : smoothly;
     float high = (sides & 2) != 0 ? open : smoothly;
-    nurbsIsSurface = nurbsIsSurface && t[dir] >= -low && t[dir] <= 1.0 + high;
+    if (t[dir] < -low || t[dir] > 1.0 + high)
+    {
+      return false;
+    }
   }
-  nurbsPerPixel = mat2(perPixelT[0] * size, perPixelT[1] * size);
-#endif
-  nurbsST = start + t * size;
+  return true;
 }
 
-bool nurbsIsInside()
+// Whether the face's trims leave a point over, or a place so near that neighbours may disagree about
+// where their edge is.
+bool nurbsIsUntrimmed(vec2 t)
 {
   int trim = nurbsFaceTile.trim;
-  if (!nurbsIsSurface)
-  {
-    return false;
-  }
-  if (trim < 0 || nurbsInside(trim, nurbsST))
+  vec2 st = nurbsStart + t * nurbsSize;
+  if (trim < 0 || nurbsInside(trim, st))
   {
     return true;
   }
-#ifdef NURBS_EXACT
-  // Neighbours may disagree about where their edge is.
-  vec2 x = nurbsGap * nurbsPerPixel[0];
-  vec2 y = nurbsGap * nurbsPerPixel[1];
-  return nurbsInside(trim, nurbsST + x) || nurbsInside(trim, nurbsST - x) ||
-    nurbsInside(trim, nurbsST + y) || nurbsInside(trim, nurbsST - y);
-#else
-  return false;
-#endif
+  vec2 x = nurbsGap() * nurbsPerPixel[0] * nurbsSize;
+  vec2 y = nurbsGap() * nurbsPerPixel[1] * nurbsSize;
+  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
+    nurbsInside(trim, st - y);
 }
 
-#ifdef NURBS_EXACT
+#ifdef NURBS_SAMPLES
 
-vec3 nurbsProject(vec4 derivative)
+uniform int nurbsSampleCount;
+uniform vec2 nurbsSamples[NURBS_SAMPLES]; // places in the pixel, -1/2 to 1/2
+
+// Which of the pixel's samples see the face: each for itself, by its own ray where the surface turns
+// away, else by the parameters' change over the pixel. The fragment shows the first that does.
+bool nurbsFindSamples()
 {
-  vec3 point = nurbsHere.h.xyz / nurbsHere.h.w;
-  return (derivative.xyz - derivative.w * point) / nurbsHere.h.w;
+  int mask = 0;
+  nurbsFound center;
+  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  bool hit = nurbsHit(ray, nurbsFaceTile, nurbsT, center);
+  bool steep = true;
+  float coverage = 0.5;
+  if (hit)
+  {
+    nurbsShow(ray, center);
+    vec4 h = center.jet.h;
+    vec3 su = center.jet.hu.xyz - center.jet.hu.w / h.w * h.xyz;
+    vec3 sv = center.jet.hv.xyz - center.jet.hv.w / h.w * h.xyz;
+    vec3 normal = cross(su, sv);
+    steep = abs(dot(normal, nurbsSight)) < 0.3 * length(normal) * length(nurbsSight);
+    coverage = nurbsFaceTile.trim < 0 ? 1.0
+      : nurbsCoverage(nurbsFaceTile.trim, nurbsStart + center.t * nurbsSize,
+          nurbsPerPixel[0] * nurbsSize, nurbsPerPixel[1] * nurbsSize);
+  }
+  bool shown = hit;
+  for (int i = 0; i < nurbsSampleCount; ++i)
+  {
+    vec2 offset = nurbsSamples[i];
+    vec2 t = hit ? center.t + nurbsPerPixel * offset : nurbsT;
+    if (steep)
+    {
+      nurbsFound found;
+      ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy + offset);
+      if (!nurbsHit(ray, nurbsFaceTile, t, found))
+      {
+        continue;
+      }
+      t = found.t;
+      if (!shown)
+      {
+        nurbsShow(ray, found);
+        shown = true;
+      }
+    }
+    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t) : coverage > 0.5;
+    if (untrimmed && nurbsIsOnPatch(t))
+    {
+      mask |= 1 << i;
+    }
+  }
+  gl_SampleMask[0] = mask;
+  return mask != 0;
 }
+
+#endif
 
 // The exact unit normal, or what the triangles say where it vanishes.
 vec3 nurbsNormal(vec3 interpolated)
 {
-  vec3 normal = cross(nurbsProject(nurbsHere.hu), nurbsProject(nurbsHere.hv));
+  vec4 h = nurbsHere.jet.h, hu = nurbsHere.jet.hu, hv = nurbsHere.jet.hv;
+  vec3 normal = cross(hu.xyz - hu.w / h.w * h.xyz, hv.xyz - hv.w / h.w * h.xyz);
   float size = length(normal);
   if (size == 0.0)
   {
@@ -105,10 +151,34 @@ bool nurbsSeesFront(vec3 normal)
 
 #endif
 
+bool nurbsIsSeen = true; // whether the pixel sees the face
+
+// Finds out; called in uniform control flow.
+void nurbsBeginFragment()
+{
+  nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
+  ivec2 block = nurbsFaceTile.block;
+  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
+  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+#ifdef NURBS_SAMPLES
+  nurbsIsSeen = nurbsFindSamples();
+#elif defined(NURBS_EXACT)
+  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  nurbsFound found;
+  nurbsIsSeen = nurbsHit(ray, nurbsFaceTile, nurbsT, found);
+  nurbsShow(ray, found);
+  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t);
+#else
+  nurbsIsSeen = nurbsFaceTile.trim < 0 || nurbsInside(nurbsFaceTile.trim, nurbsStart + nurbsT * nurbsSize);
+#endif
+}
+
 ivec2 nurbsIds()
 {
   return texelFetch(nurbsFaceIds, nurbsFaceTile.surface).xy;
 }
+
+//NURBS::Look::Dec
 
 void nurbsColor(float ambientIntensity, float diffuseIntensity, inout vec3 ambientColor,
   inout vec3 diffuseColor, inout float opacity)
@@ -121,4 +191,9 @@ void nurbsColor(float ambientIntensity, float diffuseIntensity, inout vec3 ambie
     diffuseColor = diffuseIntensity * color.rgb;
   }
   opacity = color.a * (block.g > 0.5 ? block.b : opacity);
+#ifdef NURBS_LOOK
+  vec3 look = nurbsLook(diffuseColor / max(diffuseIntensity, 1e-6));
+  ambientColor = ambientIntensity * look;
+  diffuseColor = diffuseIntensity * look;
+#endif
 }
