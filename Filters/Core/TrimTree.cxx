@@ -35,7 +35,7 @@ TrimTree::TrimTree(TrimPieces pieces)
     all.References.push_back(static_cast<std::int32_t>(k) << FlagBits);
   }
   const Box2 domain(Vec2(0.0, 0.0), Vec2(1.0, 1.0));
-  const auto budget = 8 * static_cast<std::int64_t>(all.References.size()) + 16;
+  const auto budget = 16 * static_cast<std::int64_t>(all.References.size()) + 16;
   this->Root = this->Build(domain, this->Restrict(all, domain), budget, 0);
   this->DropUnused();
 }

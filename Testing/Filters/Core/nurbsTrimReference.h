@@ -3,7 +3,7 @@
 /// @brief A sheet with trimming loops, and the winding number of its loops as dense polylines.
 #pragma once
 
-#include "Model.h"
+#include "TrimPieces.h"
 
 #include <cmath>
 #include <deque>
@@ -192,5 +192,44 @@ private:
   std::vector<std::size_t> Next;
   std::vector<double> Bow; ///< How far the curve is from the middle of a chord.
 };
+
+/// The parity of all pieces right of p, without any search structure.
+inline bool IsInside(const nurbs::TrimPieces& cut, const nurbs::Vec2& p)
+{
+  bool inside = false;
+  for (const nurbs::TrimPiece& piece : cut.Pieces)
+  {
+    if (p[1] < piece.Low[1] || p[1] >= piece.High[1] || p[0] >= piece.High[0])
+    {
+      continue;
+    }
+    const nurbs::Vec2 size = piece.High - piece.Low;
+    nurbs::Vec2 local = (p - piece.Low).cwiseQuotient(size);
+    local[0] = piece.Falling ? (piece.High[0] - p[0]) / size[0] : local[0];
+    inside = inside != (p[0] < piece.Low[0] || LiesRight(piece, cut.Inner.data(), local));
+  }
+  return inside;
+}
+
+/// The corners of all pieces' boxes, with each other's coordinates: where rounding could go wrong.
+inline std::vector<nurbs::Vec2> CriticalPoints(const nurbs::TrimPieces& cut, std::size_t most)
+{
+  std::vector<nurbs::Vec2> points;
+  const std::size_t n = cut.Pieces.size();
+  for (std::size_t k = 0; k < n * n && points.size() < most; ++k)
+  {
+    const nurbs::TrimPiece& a = cut.Pieces[k % n];
+    const nurbs::TrimPiece& b = cut.Pieces[(k % n + k / n) % n];
+    for (const nurbs::Vec2& p : { nurbs::Vec2(a.Low[0], b.Low[1]), nurbs::Vec2(a.Low[0], b.High[1]),
+           nurbs::Vec2(a.High[0], b.Low[1]), nurbs::Vec2(a.High[0], b.High[1]) })
+    {
+      if (p.minCoeff() >= 0.0 && p.maxCoeff() < 1.0)
+      {
+        points.push_back(p);
+      }
+    }
+  }
+  return points;
+}
 
 } // namespace reference
