@@ -427,7 +427,7 @@ void TrimTree::DropUnused()
         TrimPiece piece = this->Cut.Pieces[old];
         const auto inner = this->Cut.Inner.begin() + piece.FirstInner;
         piece.FirstInner = static_cast<std::int32_t>(kept.Inner.size());
-        kept.Inner.insert(kept.Inner.end(), inner, inner + piece.Degree - 1);
+        kept.Inner.insert(kept.Inner.end(), inner, inner + (piece.Degree - 1));
         kept.Pieces.push_back(piece);
       }
       reference = (number[old] << FlagBits) | (reference & (Below | Above));

@@ -27,7 +27,7 @@ struct Figures
   std::int64_t Trimmed = 0, Pieces = 0, Bytes = 0, Queries = 0, Inside = 0, Visits = 0;
   int Most = 0;
   double BuildSeconds = 0.0, QuerySeconds = 0.0;
-  int Disagree = 0; ///< Faces without defects whose area differs by over a fiftieth of the domain.
+  int Disagree = 0; ///< Faces without defects whose area differs by over 0.005 of the domain.
   int DisagreeRepaired = 0; ///< Faces that the tessellator repaired.
 };
 
@@ -98,7 +98,7 @@ Figures Measure(const nurbs::Model& model, const nurbs::TessellationResult& mesh
       out.Most = std::max(out.Most, visited);
     }
     const nurbs::FaceMesh& mesh = meshes.Meshes[static_cast<std::size_t>(f)];
-    if (std::abs(double(inside) / (Side * Side) - CoveredPart(mesh, surface)) > 0.02)
+    if (std::abs(double(inside) / (Side * Side) - CoveredPart(mesh, surface)) > 0.005)
     {
       const bool sound = mesh.Status == nurbs::FaceStatus::Ok;
       ++(sound ? out.Disagree : out.DisagreeRepaired);
@@ -131,7 +131,7 @@ bool Report(const char* file)
     errors.push_back(view->GetFaceError(face));
   }
   nurbs::TessellatorOptions options;
-  options.Tolerance = 1e-3 * grid->GetLength();
+  options.Tolerance = 1e-5 * grid->GetLength();
   const nurbs::Model& model = view->GetModel();
   const Figures f = Measure(model, nurbs::Tessellate(model, errors, options));
   const std::string path(file);

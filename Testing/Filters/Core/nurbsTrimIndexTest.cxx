@@ -231,7 +231,10 @@ void CompareWithAllPieces(const TrimmedSheet& sheet, unsigned seed)
   }
   for (const Vec2& p : points)
   {
-    ASSERT_EQ(index.Inside(0, p[0], p[1]), reference::IsInside(cut, p)) << p.transpose();
+    if (!reference::IsOnPiece(cut, p))
+    {
+      ASSERT_EQ(index.Inside(0, p[0], p[1]), reference::IsInside(cut, p)) << p.transpose();
+    }
   }
 }
 
@@ -282,6 +285,7 @@ TEST(TrimIndex, RandomSplinesWithBreaksAndGaps)
     }
     compared += Compare(TrimmedSheet(loops), degree, 400);
   }
+  EXPECT_GT(compared, 1500);
 }
 
 TEST(TrimIndex, NestedLoopsWhicheverWayTheyRun)
