@@ -131,7 +131,7 @@ bool Report(const char* file)
     errors.push_back(view->GetFaceError(face));
   }
   nurbs::TessellatorOptions options;
-  options.Tolerance = 1e-5 * grid->GetLength();
+  options.Tolerance = 1e-6 * grid->GetLength();
   const nurbs::Model& model = view->GetModel();
   const Figures f = Measure(model, nurbs::Tessellate(model, errors, options));
   const std::string path(file);
