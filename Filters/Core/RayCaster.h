@@ -73,6 +73,9 @@ public:
   const BoxTree& GetTree() const { return this->Tree; }
   std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
 
+  /// The model given.
+  const Model& GetModel() const { return *this->Source; }
+
   /// Trimming, as the queries see it.
   const TrimIndex& GetTrims() const { return this->Trims; }
 
