@@ -377,9 +377,11 @@ void PatchRays::Intersect(
     root.Piece.High[k] = cell.High[k];
     const double length = double(cell.High[k]) - cell.Low[k];
     root.Chord.row(k) *= length;
+    root.Unit[k] = rows[k] * length;
     root.Start[k] = 0.5 * (double(cell.High[k]) + cell.Low[k]) - root.Chord.row(k).dot(Vec2(x, y));
   }
   root.Chord /= cell.Weight;
+  root.Factor = (rows[0] * cell.Variation[0] + rows[1] * cell.Variation[1]) / det;
   this->Polish(cell.Patch, ray, root, hits);
 }
 
@@ -438,6 +440,25 @@ Vec2 Clamp(const Vec2& at, const PatchPiece& piece, const Vec2& slack)
     std::max(piece.Low[1] - slack[1], std::min(at[1], piece.High[1] + slack[1])));
 }
 
+/// True if a root in the piece would be too far from at - chord: where s - Chord g(s) contracts by the
+/// factor f, the root is within f / (1 - f) of its step.
+bool IsOutside(const RootPiece& root, const Vec2& slack, const Vec2& at, const Vec2& chord)
+{
+  const double reach = 1.01 * root.Factor / (1.0 - root.Factor) *
+    std::max(std::abs(chord[0]) / root.Unit[0], std::abs(chord[1]) / root.Unit[1]);
+  for (int k = 0; k < 2; ++k)
+  {
+    const double next = at[k] - chord[k];
+    const double off =
+      std::max(root.Piece.Low[k] - slack[k] - next, next - root.Piece.High[k] - slack[k]);
+    if (off > reach * root.Unit[k])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 /// Newton's method within a piece that has one root at most; where it does not get on, the iteration
@@ -445,7 +466,7 @@ Vec2 Clamp(const Vec2& at, const PatchPiece& piece, const Vec2& slack)
 void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece& root,
   std::vector<PatchHit>& hits) const
 {
-  constexpr int newtonSteps = 8;
+  constexpr int newtonSteps = 6;
   constexpr int maxSteps = 64;
   const Vec2 noise(
     root.Chord.row(0).norm() * this->Rounding, root.Chord.row(1).norm() * this->Rounding);
@@ -457,13 +478,18 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
     Vec2 value;
     Eigen::Matrix2d derivative;
     Project(point, ray, value, derivative);
+    const Vec2 chord = root.Chord * value;
+    if (IsOutside(root, slack, at, chord))
+    {
+      return;
+    }
     const double det = derivative.determinant();
     const bool newton = step < newtonSteps &&
       std::abs(det) > 1e-14 * derivative.col(0).norm() * derivative.col(1).norm();
     const Vec2 move = newton ? Vec2(Vec2(derivative(1, 1) * value[0] - derivative(0, 1) * value[1],
                                       derivative(0, 0) * value[1] - derivative(1, 0) * value[0]) *
                                  (1.0 / det))
-                             : Vec2(root.Chord * value);
+                             : chord;
     const double enough = newton ? NewtonEnd : ChordEnd;
     if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {

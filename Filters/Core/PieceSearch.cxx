@@ -249,7 +249,7 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
     }
   }
   const Vec2 root = Vec2(0.5, 0.5) - inverse * value;
-  bool isolated = true;
+  double factor = 0.0;
   for (int d = 0; d < 2; ++d)
   {
     const double reach = 0.5 * rest.row(d).sum();
@@ -258,18 +258,19 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
     {
       return Verdict::Empty;
     }
-    isolated = isolated && 2.0 * reach < Contracting;
+    factor = std::max(factor, 2.0 * reach);
   }
-  if (!isolated)
+  if (factor >= Contracting)
   {
     return Verdict::Halve;
   }
-  RootPiece found{ piece, true, root, inverse };
+  RootPiece found{ piece, true, root, inverse, factor, Vec2::Ones() };
   for (int d = 0; d < 2; ++d)
   {
     const double length = piece.High[d] - piece.Low[d];
     found.Start[d] = piece.Low[d] + length * root[d];
     found.Chord.row(d) *= length;
+    found.Unit[d] = length;
   }
   this->Found.push_back(found);
   return Verdict::Done;

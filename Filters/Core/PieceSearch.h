@@ -27,6 +27,9 @@ struct RootPiece
   Vec2 Start = Vec2::Zero();
   /// Inverse of the mean derivative over the piece: s - Chord g(s) contracts there by a half or more.
   Eigen::Matrix2d Chord = Eigen::Matrix2d::Zero();
+  /// By how much it contracts, in the norm max |s_k| / Unit[k].
+  double Factor = 0.5;
+  Vec2 Unit = Vec2::Ones();
 };
 
 /// Finds the pieces by halving, see PatchRays.h.
