@@ -15,9 +15,9 @@ namespace
 
 /// A cell's derivatives vary by at most this part, unless it is at its smallest: half of the cells
 /// cost a tenth of the speed here.
-constexpr double FlatEnough = 0.5;
-/// The contraction factor under which a cell counts as having one root at most.
-constexpr double Contracting = 0.5;
+constexpr double FlatEnough = 0.3;
+/// The tangent of the angle between ray and normal for which that is meant.
+constexpr double SteepEnough = 1.0;
 /// A patch is halved this often at most.
 constexpr int MaxHalvings = 10;
 /// Cells are not made smaller than this part of the model.
@@ -124,6 +124,59 @@ RayPlanes::RayPlanes(const Vec3& origin, const Vec3& direction)
   }
 }
 
+namespace
+{
+
+/// A float that is not less; large ones stay finite.
+float RoundUp(double x)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  return std::nextafter(static_cast<float>(std::min(x, 1e30)), infinity);
+}
+
+/// The basis of two tangents and their cross product.
+struct TangentFrame
+{
+  Vec3 Normal;        ///< The cross product, not of unit length.
+  Vec3 Reciprocal[2]; ///< Their products with a vector are its coordinates along the tangents.
+  Vec3 Dual;          ///< The same along Normal.
+
+  explicit TangentFrame(const Vec3 (&tangents)[2])
+    : Normal(tangents[0].cross(tangents[1]))
+  {
+    const double square = std::max(
+      this->Normal.squaredNorm(), 1e-28 * tangents[0].squaredNorm() * tangents[1].squaredNorm());
+    const double inverse = 1.0 / std::max(square, std::numeric_limits<double>::min());
+    this->Reciprocal[0] = inverse * tangents[1].cross(this->Normal);
+    this->Reciprocal[1] = inverse * this->Normal.cross(tangents[0]);
+    this->Dual = inverse * this->Normal;
+  }
+};
+
+/// Largest coordinates of the differences of derivatives in a tangent frame.
+struct VariationBound
+{
+  Eigen::Matrix2d Along =
+    Eigen::Matrix2d::Zero();       ///< Along a tangent (row), of a derivative (column).
+  Vec2 Across = Vec2::Zero();      ///< Along the normal.
+  Vec2 WeightSlope = Vec2::Zero(); ///< Of the weight's derivatives themselves.
+
+  void Extend(const TangentFrame& frame, int d, const Vec3& difference, double weightSlope)
+  {
+    this->Along(0, d) = std::max(this->Along(0, d), std::abs(frame.Reciprocal[0].dot(difference)));
+    this->Along(1, d) = std::max(this->Along(1, d), std::abs(frame.Reciprocal[1].dot(difference)));
+    this->Across[d] = std::max(this->Across[d], std::abs(frame.Dual.dot(difference)));
+    this->WeightSlope[d] = std::max(this->WeightSlope[d], std::abs(weightSlope));
+  }
+  /// See PatchRays::Intersect.
+  Eigen::Matrix2d Matrix(const Vec2& slope, const Vec2& step) const
+  {
+    return this->Along + slope * this->Across.transpose() + step * this->WeightSlope.transpose();
+  }
+};
+
+} // namespace
+
 /// Cuts the patches of one surface into cells.
 class PatchCutter
 {
@@ -182,8 +235,9 @@ private:
     this->Cut(high, depth + 1);
   }
 
-  /// Fills in the cell of a piece. Returns how much its derivatives vary, relative to their length and
-  /// the angle between them, and in `dir` in which direction they do so more.
+  /// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which
+  /// s - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
+  /// in which they do so more.
   double Flatten(const BezierPatch& piece, PatchRays::Cell& cell, int& dir) const
   {
     const int count[2] = { piece.Degree[0] + 1, piece.Degree[1] + 1 };
@@ -197,60 +251,65 @@ private:
     {
       radius = std::max(radius, (h.head<3>() / h[3] - cell.Middle).norm());
     }
-    // Homogeneous points around the middle; where there is a root, its plane's offset is at most the
-    // radius, by which changes of the weight count.
-    const auto local = [&](const Vec4& h) -> Vec3 {
-      return (h.head<3>() - h[3] * cell.Middle) / weight;
+    // Homogeneous vectors as seen from the middle point.
+    const auto local = [&](const Vec4& h) -> Vec4 {
+      Vec4 seen;
+      seen << (h.head<3>() - h[3] * cell.Middle) / weight, h[3] / weight;
+      return seen;
     };
-    double variation[2] = { 0.0, 0.0 };
-    double bend[2][2] = {}; // largest second differences: derivative; direction that it changes in
+    cell.D[0] = local(middle.D[0]).head<3>();
+    cell.D[1] = local(middle.D[1]).head<3>();
+    const TangentFrame frame(cell.D);
+    VariationBound whole;
+    VariationBound bend[2]; // second differences by their direction
     for (int d = 0; d < 2; ++d)
     {
-      cell.D[d] = local(middle.D[d]);
-      const int n = piece.Degree[d];
       const int step[2] = { 1, count[0] };
       const auto derivative = [&](int i, int j) -> Vec4 {
         const Vec4* h = piece.Points.data() + i + j * count[0];
-        return n * (h[step[d]] - h[0]);
+        return local(piece.Degree[d] * (h[step[d]] - h[0]));
       };
       for (int j = 0; j < count[1] - (d == 1 ? 1 : 0); ++j)
       {
         for (int i = 0; i < count[0] - (d == 0 ? 1 : 0); ++i)
         {
           const Vec4 here = derivative(i, j);
-          const double w = std::abs(here[3]) / weight;
-          variation[d] = std::max(variation[d], (local(here) - cell.D[d]).norm() + radius * w);
+          whole.Extend(frame, d, here.head<3>() - cell.D[d], here[3]);
+          const int spans[2] = { count[0] - (d == 0 ? 2 : 1), count[1] - (d == 1 ? 2 : 1) };
           if (i > 0)
           {
-            bend[d][0] = std::max(bend[d][0], local(here - derivative(i - 1, j)).norm());
+            bend[0].Extend(
+              frame, d, spans[0] * (here - derivative(i - 1, j)).head<3>(), d == 0 ? here[3] : 0.0);
           }
           if (j > 0)
           {
-            bend[d][1] = std::max(bend[d][1], local(here - derivative(i, j - 1)).norm());
+            bend[1].Extend(
+              frame, d, spans[1] * (here - derivative(i, j - 1)).head<3>(), d == 1 ? here[3] : 0.0);
           }
         }
       }
-      bend[d][d] *= n - 1;
-      bend[d][1 - d] *= piece.Degree[1 - d];
     }
-    const double length[2] = { cell.D[0].norm(), cell.D[1].norm() };
-    const double tiny = 1e-14 * this->Size;
-    const double sine = cell.D[0].cross(cell.D[1]).norm() /
-      std::max(length[0] * length[1], std::numeric_limits<double>::min());
-    const auto relative = [&](double a, double b) {
-      return (a / std::max(length[0], tiny) + b / std::max(length[1], tiny)) / std::max(sine, 1e-3);
+    const Vec2 slope = SteepEnough * frame.Normal.norm() *
+      Vec2(frame.Reciprocal[0].norm(), frame.Reciprocal[1].norm());
+    const Vec2 step(0.5, 0.5);
+    Vec2 unit;
+    const double factor = ContractionFactor(whole.Matrix(slope, step), unit);
+    const auto share = [&](const VariationBound& part) {
+      return (part.Matrix(slope, step) * unit).cwiseQuotient(unit).maxCoeff();
     };
-    dir = relative(bend[0][0], bend[1][0]) >= relative(bend[0][1], bend[1][1]) ? 0 : 1;
-    const float infinity = std::numeric_limits<float>::infinity();
+    dir = share(bend[0]) >= share(bend[1]) ? 0 : 1;
     for (int d = 0; d < 2; ++d)
     {
-      cell.Variation[d] = std::nextafter(static_cast<float>(variation[d]), infinity);
+      cell.Along[0][d] = RoundUp(whole.Along(0, d));
+      cell.Along[1][d] = RoundUp(whole.Along(1, d));
+      cell.Across[d] = RoundUp(whole.Across[d]);
+      cell.WeightSlope[d] = RoundUp(whole.WeightSlope[d]);
       const Interval& part = d == 0 ? piece.U : piece.V;
       cell.Low[d] = static_cast<float>(part.Min);
       cell.High[d] = static_cast<float>(part.Max);
     }
-    cell.Radius = std::nextafter(static_cast<float>(radius), infinity);
-    return relative(variation[0], variation[1]);
+    cell.Radius = RoundUp(radius);
+    return factor;
   }
 
   double Size;
@@ -345,43 +404,58 @@ void PatchRays::Intersect(
   {
     return;
   }
-  // Where the ray meets the tangent plane, by Cramer's rule without dividing.
+  // Where the ray meets the tangent plane, by Cramer's rule.
   const double a = ray.Normal[0].dot(cell.D[0]);
   const double b = ray.Normal[0].dot(cell.D[1]);
   const double c = ray.Normal[1].dot(cell.D[0]);
   const double d = ray.Normal[1].dot(cell.D[1]);
-  const double det = std::abs(a * d - b * c);
+  const double det = a * d - b * c;
   const double rows[2] = { std::sqrt(b * b + d * d), std::sqrt(a * a + c * c) };
-  const double steps[2] = { d * x - b * y, a * y - c * x };
-  const double variation = double(cell.Variation[0]) + cell.Variation[1];
-  const double reach = 0.5 * variation + this->Rounding;
-  for (int k = 0; k < 2; ++k)
-  {
-    if (std::abs(steps[k]) > (0.5 + 1e-9) * det + rows[k] * reach)
-    {
-      return;
-    }
-  }
-  if (rows[0] * cell.Variation[0] + rows[1] * cell.Variation[1] >= Contracting * det ||
-    det <= 1e-13 * rows[0] * rows[1])
+  if (std::abs(det) <= 1e-13 * rows[0] * rows[1])
   {
     this->Search(cell, ray, hits);
     return;
   }
+  const double inverse = 1.0 / det;
+  const Vec2 step(inverse * (d * x - b * y), inverse * (a * y - c * x));
+  // The same for the normal: how far along the surface a point moves that is off the tangent plane.
+  const Vec3 normal = cell.D[0].cross(cell.D[1]);
+  const double nx = ray.Normal[0].dot(normal);
+  const double ny = ray.Normal[1].dot(normal);
+  const Vec2 slope(inverse * (d * nx - b * ny), inverse * (a * ny - c * nx));
+  // Bounds on 1 - Y Dg over the cell: Y Dg in the tangent frame. Krawczyk's test.
+  Eigen::Matrix2d bound;
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int e = 0; e < 2; ++e)
+    {
+      bound(k, e) = double(cell.Along[k][e]) + std::abs(slope[k]) * cell.Across[e] +
+        std::abs(step[k]) * cell.WeightSlope[e];
+    }
+    const double reach = 0.5 * (bound(k, 0) + bound(k, 1));
+    if (std::abs(step[k]) > 0.5 + 1e-9 + reach + rows[k] * std::abs(inverse) * this->Rounding)
+    {
+      return;
+    }
+  }
   RootPiece root;
+  root.Factor = ContractionFactor(bound, root.Unit);
+  if (root.Factor >= MaxFactor)
+  {
+    this->Search(cell, ray, hits);
+    return;
+  }
   root.Chord << d, -b, -c, a;
-  root.Chord /= a * d - b * c;
+  root.Chord *= inverse / cell.Weight;
   for (int k = 0; k < 2; ++k)
   {
     root.Piece.Low[k] = cell.Low[k];
     root.Piece.High[k] = cell.High[k];
     const double length = double(cell.High[k]) - cell.Low[k];
     root.Chord.row(k) *= length;
-    root.Unit[k] = rows[k] * length;
-    root.Start[k] = 0.5 * (double(cell.High[k]) + cell.Low[k]) - root.Chord.row(k).dot(Vec2(x, y));
+    root.Unit[k] *= length;
+    root.Start[k] = cell.Low[k] + (0.5 - step[k]) * length;
   }
-  root.Chord /= cell.Weight;
-  root.Factor = (rows[0] * cell.Variation[0] + rows[1] * cell.Variation[1]) / det;
   this->Polish(cell.Patch, ray, root, hits);
 }
 

@@ -19,6 +19,13 @@ struct PatchPoint
 /// Evaluates a patch of p + 1 times q + 1 homogeneous points, u fastest. Exact at its corners.
 void EvaluatePatch(const Vec4* net, int p, int q, double u, double v, PatchPoint& out);
 
+/// A map with at most these (positive) derivatives, row by row, contracts by this factor in the norm
+/// max |s_k| / unit[k]: the largest eigenvalue and its vector, which make the factor as small as it
+/// can be (Perron, Frobenius).
+double ContractionFactor(const Eigen::Matrix2d& bound, Vec2& unit);
+/// Below this factor there is one root at most, and the iteration is quick.
+constexpr double MaxFactor = 0.5;
+
 /// Where a root may be.
 struct RootPiece
 {
