@@ -2,6 +2,7 @@
 #include "PatchRays.h"
 
 #include "Model.h"
+#include "PatchCutter.h"
 #include "PieceSearch.h"
 
 #include <algorithm>
@@ -13,15 +14,6 @@ namespace nurbs
 namespace
 {
 
-/// A cell's derivatives vary by at most this part, unless it is at its smallest: half of the cells
-/// cost a tenth of the speed here.
-constexpr double FlatEnough = 0.3;
-/// The tangent of the angle between ray and normal for which that is meant.
-constexpr double SteepEnough = 1.0;
-/// A patch is halved this often at most.
-constexpr int MaxHalvings = 10;
-/// Cells are not made smaller than this part of the model.
-constexpr double SmallestCell = 1e-4;
 /// How far outside of its piece a root may lie, in parameters of the patch: more than rounding
 /// moves it, so that none is lost between two pieces.
 constexpr double Overlap = 1e-11;
@@ -123,197 +115,6 @@ RayPlanes::RayPlanes(const Vec3& origin, const Vec3& direction)
     this->Homogeneous[k] << this->Normal[k], -this->Normal[k].dot(origin);
   }
 }
-
-namespace
-{
-
-/// A float that is not less; large ones stay finite.
-float RoundUp(double x)
-{
-  const float infinity = std::numeric_limits<float>::infinity();
-  return std::nextafter(static_cast<float>(std::min(x, 1e30)), infinity);
-}
-
-/// The basis of two tangents and their cross product.
-struct TangentFrame
-{
-  Vec3 Normal;        ///< The cross product, not of unit length.
-  Vec3 Reciprocal[2]; ///< Their products with a vector are its coordinates along the tangents.
-  Vec3 Dual;          ///< The same along Normal.
-
-  explicit TangentFrame(const Vec3 (&tangents)[2])
-    : Normal(tangents[0].cross(tangents[1]))
-  {
-    const double square = std::max(
-      this->Normal.squaredNorm(), 1e-28 * tangents[0].squaredNorm() * tangents[1].squaredNorm());
-    const double inverse = 1.0 / std::max(square, std::numeric_limits<double>::min());
-    this->Reciprocal[0] = inverse * tangents[1].cross(this->Normal);
-    this->Reciprocal[1] = inverse * this->Normal.cross(tangents[0]);
-    this->Dual = inverse * this->Normal;
-  }
-};
-
-/// Largest coordinates of the differences of derivatives in a tangent frame.
-struct VariationBound
-{
-  Eigen::Matrix2d Along =
-    Eigen::Matrix2d::Zero();       ///< Along a tangent (row), of a derivative (column).
-  Vec2 Across = Vec2::Zero();      ///< Along the normal.
-  Vec2 WeightSlope = Vec2::Zero(); ///< Of the weight's derivatives themselves.
-
-  void Extend(const TangentFrame& frame, int d, const Vec3& difference, double weightSlope)
-  {
-    this->Along(0, d) = std::max(this->Along(0, d), std::abs(frame.Reciprocal[0].dot(difference)));
-    this->Along(1, d) = std::max(this->Along(1, d), std::abs(frame.Reciprocal[1].dot(difference)));
-    this->Across[d] = std::max(this->Across[d], std::abs(frame.Dual.dot(difference)));
-    this->WeightSlope[d] = std::max(this->WeightSlope[d], std::abs(weightSlope));
-  }
-  /// See PatchRays::Intersect.
-  Eigen::Matrix2d Matrix(const Vec2& slope, const Vec2& step) const
-  {
-    return this->Along + slope * this->Across.transpose() + step * this->WeightSlope.transpose();
-  }
-};
-
-} // namespace
-
-/// Cuts the patches of one surface into cells.
-class PatchCutter
-{
-public:
-  explicit PatchCutter(double size)
-    : Size(size)
-  {}
-
-  void Add(const BezierPatch& given, std::int32_t face)
-  {
-    BezierPatch patch = given;
-    double weight = 0.0;
-    for (const Vec4& h : patch.Points)
-    {
-      weight = std::max(weight, h[3]);
-    }
-    for (Vec4& h : patch.Points)
-    {
-      h /= weight;
-    }
-    this->Patches.push_back({ { patch.Degree[0], patch.Degree[1] }, face,
-      static_cast<std::int64_t>(this->Points.size()), { patch.U, patch.V } });
-    this->Points.insert(this->Points.end(), patch.Points.begin(), patch.Points.end());
-    patch.U = Interval();
-    patch.V = Interval();
-    this->Cut(patch, 0);
-  }
-
-  std::vector<PatchRays::Patch> Patches;
-  std::vector<Vec4> Points;
-  std::vector<PatchRays::Cell> Cells;
-  std::vector<Box3> Boxes;
-
-private:
-  /// Makes `piece` (its U and V are parameters of the patch) one cell, or two halves of cells.
-  void Cut(const BezierPatch& piece, int depth)
-  {
-    PatchRays::Cell cell;
-    int dir;
-    const double turn = this->Flatten(piece, cell, dir);
-    if (turn <= FlatEnough || depth == MaxHalvings || cell.Radius < SmallestCell * this->Size)
-    {
-      cell.Patch = static_cast<std::int32_t>(this->Patches.size()) - 1;
-      Box3 box;
-      for (const Vec4& h : piece.Points)
-      {
-        box.extend(h.head<3>() / h[3]);
-      }
-      this->Cells.push_back(cell);
-      this->Boxes.push_back(box);
-      return;
-    }
-    BezierPatch low, high;
-    SplitBezierPatch(piece, dir, 0.5, low, high);
-    this->Cut(low, depth + 1);
-    this->Cut(high, depth + 1);
-  }
-
-  /// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which
-  /// s - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
-  /// in which they do so more.
-  double Flatten(const BezierPatch& piece, PatchRays::Cell& cell, int& dir) const
-  {
-    const int count[2] = { piece.Degree[0] + 1, piece.Degree[1] + 1 };
-    PatchPoint middle;
-    EvaluatePatch(piece.Points.data(), count[0] - 1, count[1] - 1, 0.5, 0.5, middle);
-    const double weight = middle.H[3];
-    cell.Middle = middle.H.head<3>() / weight;
-    cell.Weight = static_cast<float>(weight);
-    double radius = 0.0;
-    for (const Vec4& h : piece.Points)
-    {
-      radius = std::max(radius, (h.head<3>() / h[3] - cell.Middle).norm());
-    }
-    // Homogeneous vectors as seen from the middle point.
-    const auto local = [&](const Vec4& h) -> Vec4 {
-      Vec4 seen;
-      seen << (h.head<3>() - h[3] * cell.Middle) / weight, h[3] / weight;
-      return seen;
-    };
-    cell.D[0] = local(middle.D[0]).head<3>();
-    cell.D[1] = local(middle.D[1]).head<3>();
-    const TangentFrame frame(cell.D);
-    VariationBound whole;
-    VariationBound bend[2]; // second differences by their direction
-    for (int d = 0; d < 2; ++d)
-    {
-      const int step[2] = { 1, count[0] };
-      const auto derivative = [&](int i, int j) -> Vec4 {
-        const Vec4* h = piece.Points.data() + i + j * count[0];
-        return local(piece.Degree[d] * (h[step[d]] - h[0]));
-      };
-      for (int j = 0; j < count[1] - (d == 1 ? 1 : 0); ++j)
-      {
-        for (int i = 0; i < count[0] - (d == 0 ? 1 : 0); ++i)
-        {
-          const Vec4 here = derivative(i, j);
-          whole.Extend(frame, d, here.head<3>() - cell.D[d], here[3]);
-          const int spans[2] = { count[0] - (d == 0 ? 2 : 1), count[1] - (d == 1 ? 2 : 1) };
-          if (i > 0)
-          {
-            bend[0].Extend(
-              frame, d, spans[0] * (here - derivative(i - 1, j)).head<3>(), d == 0 ? here[3] : 0.0);
-          }
-          if (j > 0)
-          {
-            bend[1].Extend(
-              frame, d, spans[1] * (here - derivative(i, j - 1)).head<3>(), d == 1 ? here[3] : 0.0);
-          }
-        }
-      }
-    }
-    const Vec2 slope = SteepEnough * frame.Normal.norm() *
-      Vec2(frame.Reciprocal[0].norm(), frame.Reciprocal[1].norm());
-    const Vec2 step(0.5, 0.5);
-    Vec2 unit;
-    const double factor = ContractionFactor(whole.Matrix(slope, step), unit);
-    const auto share = [&](const VariationBound& part) {
-      return (part.Matrix(slope, step) * unit).cwiseQuotient(unit).maxCoeff();
-    };
-    dir = share(bend[0]) >= share(bend[1]) ? 0 : 1;
-    for (int d = 0; d < 2; ++d)
-    {
-      cell.Along[0][d] = RoundUp(whole.Along(0, d));
-      cell.Along[1][d] = RoundUp(whole.Along(1, d));
-      cell.Across[d] = RoundUp(whole.Across[d]);
-      cell.WeightSlope[d] = RoundUp(whole.WeightSlope[d]);
-      const Interval& part = d == 0 ? piece.U : piece.V;
-      cell.Low[d] = static_cast<float>(part.Min);
-      cell.High[d] = static_cast<float>(part.Max);
-    }
-    cell.Radius = RoundUp(radius);
-    return factor;
-  }
-
-  double Size;
-};
 
 void PatchRays::Build(const Model& model, const ParallelFor& parallel)
 {
@@ -429,8 +230,7 @@ void PatchRays::Intersect(
   {
     for (int e = 0; e < 2; ++e)
     {
-      bound(k, e) = double(cell.Along[k][e]) + std::abs(slope[k]) * cell.Across[e] +
-        std::abs(step[k]) * cell.WeightSlope[e];
+      bound(k, e) = double(cell.Along[k][e]) + std::abs(slope[k]) * cell.Across[e];
     }
     const double reach = 0.5 * (bound(k, 0) + bound(k, 1));
     if (std::abs(step[k]) > 0.5 + 1e-9 + reach + rows[k] * std::abs(inverse) * this->Rounding)
@@ -446,7 +246,8 @@ void PatchRays::Intersect(
     return;
   }
   root.Chord << d, -b, -c, a;
-  root.Chord *= inverse / cell.Weight;
+  root.Chord *= inverse;
+  root.IsCartesian = true;
   for (int k = 0; k < 2; ++k)
   {
     root.Piece.Low[k] = cell.Low[k];
@@ -552,7 +353,7 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
     Vec2 value;
     Eigen::Matrix2d derivative;
     Project(point, ray, value, derivative);
-    const Vec2 chord = root.Chord * value;
+    const Vec2 chord = root.Chord * (root.IsCartesian ? Vec2(value / point.H[3]) : value);
     if (IsOutside(root, slack, at, chord))
     {
       return;

@@ -103,14 +103,11 @@ private:
   {
     Vec3 Middle; ///< The point in the middle of its parameters.
     Vec3 D[2];   ///< Derivatives there with respect to the cell's own parameters in [0, 1].
-    /// Bounds on how the derivatives (of u and v; last index) of the homogeneous surface around Middle
-    /// differ from D: coordinates along D[0], D[1] (first index) and their cross product, and the
-    /// derivatives of the weight.
+    /// Bounds on how far the surface's derivatives (of u and v; last index) differ from D: coordinates
+    /// along D[0], D[1] (first index) and along their cross product.
     float Along[2][2];
     float Across[2];
-    float WeightSlope[2];
-    float Weight;   ///< At Middle.
-    float Radius;   ///< Of a ball around Middle that holds the cell.
+    float Radius;          ///< Of a ball around Middle that holds the cell.
     float Low[2], High[2]; ///< The cell's part of the patch, exact (dyadic).
     std::int32_t Patch;
   };

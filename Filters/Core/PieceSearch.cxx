@@ -274,7 +274,7 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
   {
     return Verdict::Halve;
   }
-  RootPiece found{ piece, true, root, inverse, factor, unit };
+  RootPiece found{ piece, true, root, inverse, factor, unit, false };
   for (int d = 0; d < 2; ++d)
   {
     const double length = piece.High[d] - piece.Low[d];

@@ -37,6 +37,7 @@ struct RootPiece
   /// By how much it contracts, in the norm max |s_k| / Unit[k].
   double Factor = 0.5;
   Vec2 Unit = Vec2::Ones();
+  bool IsCartesian = false; ///< g divided by the weight is meant.
 };
 
 /// Finds the pieces by halving, see PatchRays.h.
