@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchCutter.h"
 
+#include "Model.h"
 #include "PieceSearch.h"
 
 #include <algorithm>
@@ -21,6 +22,8 @@ constexpr double SteepEnough = 1.0;
 constexpr int MaxHalvings = 10;
 /// Cells are not made smaller than this part of the model.
 constexpr double SmallestCell = 1e-4;
+/// Up to this factor, derivatives are more than a quarter of those in the cell's middle.
+constexpr double SafeFactor = 0.75;
 
 /// A float that is not less; large ones stay finite.
 float RoundUp(double x)
@@ -108,8 +111,65 @@ std::vector<double> Binomials(int n)
 
 } // namespace
 
-void PatchCutter::Add(const BezierPatch& given, std::int32_t face)
+CoverTest::CoverTest(const Model& model, const nurbs::Face& face, const FaceTrim& trim)
+  : Trim(trim)
+  , Domain{ face.Geometry.Domain(0), face.Geometry.Domain(1) }
 {
+  if (!trim.IsWhole())
+  {
+    for (const TrimPiece& piece : CutTrimLoops(model, face).Pieces)
+    {
+      this->Boxes.emplace_back(piece.Low, piece.High);
+    }
+  }
+}
+
+TrimCover CoverTest::Cover(const Box2& rectangle) const
+{
+  for (const Box2& box : this->Boxes)
+  {
+    if (box.intersects(rectangle))
+    {
+      return TrimCover::Part;
+    }
+  }
+  const Vec2 middle = rectangle.center();
+  const bool inside = this->Trim.Inside(this->Domain[0].Min + middle[0] * this->Domain[0].Length(),
+    this->Domain[1].Min + middle[1] * this->Domain[1].Length());
+  return inside ? TrimCover::Whole : TrimCover::None;
+}
+
+/// What stays the same while a patch is cut.
+struct PatchCutter::Context
+{
+  const CoverTest& Test;
+  double Reach;
+  Interval Domain[2]; ///< The patch's, normalised to the face's.
+
+  /// What is left of a piece, or within reach of that.
+  TrimCover Cover(const BezierPatch& piece, const PatchRays::Cell& cell) const
+  {
+    Box2 rectangle;
+    for (int d = 0; d < 2; ++d)
+    {
+      const Interval& part = d == 0 ? piece.U : piece.V;
+      const double length = this->Domain[d].Length();
+      const double most = length * part.Length() * 4.0 * this->Reach /
+        std::max(cell.D[d].norm(), std::numeric_limits<double>::min());
+      const double margin = std::min(1.0, most) + 1e-9;
+      rectangle.min()[d] = this->Domain[d].Min + part.Min * length - margin;
+      rectangle.max()[d] = this->Domain[d].Min + part.Max * length + margin;
+    }
+    return this->Test.Cover(rectangle);
+  }
+};
+
+void PatchCutter::Add(
+  const BezierPatch& given, std::int32_t face, const CoverTest& test, double reach)
+{
+  const Context context{ test, reach,
+    { { test.Normalise(0, given.U.Min), test.Normalise(0, given.U.Max) },
+      { test.Normalise(1, given.V.Min), test.Normalise(1, given.V.Max) } } };
   BezierPatch patch = given;
   double heaviest = 0.0;
   double lightest = std::numeric_limits<double>::infinity();
@@ -127,7 +187,13 @@ void PatchCutter::Add(const BezierPatch& given, std::int32_t face)
   this->Points.insert(this->Points.end(), patch.Points.begin(), patch.Points.end());
   patch.U = Interval();
   patch.V = Interval();
-  this->Cut(patch, lightest < heaviest ? MakeQuotients(patch) : QuotientNet(), 0);
+  const std::size_t before = this->Cells.size();
+  this->Cut(context, patch, lightest < heaviest ? MakeQuotients(patch) : QuotientNet(), 0);
+  if (this->Cells.size() == before)
+  {
+    this->Points.resize(static_cast<std::size_t>(this->Patches.back().First));
+    this->Patches.pop_back();
+  }
 }
 
 /// Products of Bezier polynomials (Farin, Curves and Surfaces for CAGD, section 5.5), derivatives
@@ -181,11 +247,18 @@ PatchCutter::QuotientNet PatchCutter::MakeQuotients(const BezierPatch& patch)
 }
 
 /// Makes `piece` (its U and V are parameters of the patch) one cell, or two halves of cells.
-void PatchCutter::Cut(const BezierPatch& piece, const QuotientNet& quotients, int depth)
+void PatchCutter::Cut(
+  const Context& context, const BezierPatch& piece, const QuotientNet& quotients, int depth)
 {
   PatchRays::Cell cell;
   int dir;
   const double turn = this->Flatten(piece, quotients, cell, dir);
+  const TrimCover cover = turn <= SafeFactor ? context.Cover(piece, cell) : TrimCover::Part;
+  if (cover == TrimCover::None)
+  {
+    return;
+  }
+  cell.IsWhole = cover == TrimCover::Whole;
   if (turn <= FlatEnough || depth == MaxHalvings || cell.Radius < SmallestCell * this->Size)
   {
     cell.Patch = static_cast<std::int32_t>(this->Patches.size()) - 1;
@@ -213,8 +286,8 @@ void PatchCutter::Cut(const BezierPatch& piece, const QuotientNet& quotients, in
       }
     }
   }
-  this->Cut(low, lowQuotients, depth + 1);
-  this->Cut(high, highQuotients, depth + 1);
+  this->Cut(context, low, lowQuotients, depth + 1);
+  this->Cut(context, high, highQuotients, depth + 1);
 }
 
 /// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which

@@ -116,7 +116,8 @@ RayPlanes::RayPlanes(const Vec3& origin, const Vec3& direction)
   }
 }
 
-void PatchRays::Build(const Model& model, const ParallelFor& parallel)
+void PatchRays::Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+  const ParallelFor& parallel)
 {
   this->Box.setEmpty();
   for (const Face& face : model.Faces)
@@ -140,9 +141,10 @@ void PatchRays::Build(const Model& model, const ParallelFor& parallel)
     {
       if (model.Faces[i].Geometry.Size() > 0)
       {
+        const CoverTest test(model, model.Faces[i], trims.Face(i));
         for (const BezierPatch& patch : ToBezier(model.Faces[i].Geometry))
         {
-          cut[i].Add(patch, static_cast<std::int32_t>(i));
+          cut[i].Add(patch, static_cast<std::int32_t>(i), test, reach[i]);
         }
       }
     }
@@ -257,7 +259,7 @@ void PatchRays::Intersect(
     root.Unit[k] *= length;
     root.Start[k] = cell.Low[k] + (0.5 - step[k]) * length;
   }
-  this->Polish(cell.Patch, ray, root, hits);
+  this->Polish(cell, ray, root, hits);
 }
 
 /// The cells that the linear test can't decide: poles, and what is seen at a grazing angle.
@@ -276,11 +278,11 @@ void PatchRays::Search(const Cell& cell, const RayPlanes& ray, std::vector<Patch
   {
     if (root.Isolated)
     {
-      this->Polish(cell.Patch, ray, root, hits);
+      this->Polish(cell, ray, root, hits);
     }
     else
     {
-      this->Touch(cell.Patch, ray, root.Piece, hits);
+      this->Touch(cell, ray, root.Piece, hits);
     }
   }
 }
@@ -338,8 +340,8 @@ bool IsOutside(const RootPiece& root, const Vec2& slack, const Vec2& at, const V
 
 /// Newton's method within a piece that has one root at most; where it does not get on, the iteration
 /// with a constant matrix, which contracts.
-void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece& root,
-  std::vector<PatchHit>& hits) const
+void PatchRays::Polish(
+  const Cell& cell, const RayPlanes& ray, const RootPiece& root, std::vector<PatchHit>& hits) const
 {
   constexpr int newtonSteps = 6;
   constexpr int maxSteps = 64;
@@ -349,7 +351,7 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
   Vec2 at = Clamp(root.Start, root.Piece, slack);
   for (int step = 0; step < maxSteps; ++step)
   {
-    const PatchPoint point = this->Evaluate(patch, at);
+    const PatchPoint point = this->Evaluate(cell.Patch, at);
     Vec2 value;
     Eigen::Matrix2d derivative;
     Project(point, ray, value, derivative);
@@ -368,7 +370,7 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
     const double enough = newton ? NewtonEnd : ChordEnd;
     if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {
-      this->AddHit(patch, at - move, false, hits);
+      this->AddHit(cell, at - move, false, hits);
       return;
     }
     const Vec2 last = at;
@@ -383,7 +385,7 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
 /// A piece whose control points all lie within rounding of a plane through the ray. If it is small, it
 /// holds a pole, or the ray touches the surface there: the point next to the ray by the damped
 /// Gauss-Newton method. If it is not, the ray runs within the surface.
-void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece& piece,
+void PatchRays::Touch(const Cell& cell, const RayPlanes& ray, const PatchPiece& piece,
   std::vector<PatchHit>& hits) const
 {
   Box3 box;
@@ -391,7 +393,7 @@ void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece
   {
     const Vec2 part(0.5 * (i % 3), 0.5 * (i / 3));
     const Vec2 low(piece.Low[0], piece.Low[1]), high(piece.High[0], piece.High[1]);
-    const Vec4 h = this->Evaluate(patch, low + part.cwiseProduct(high - low)).H;
+    const Vec4 h = this->Evaluate(cell.Patch, low + part.cwiseProduct(high - low)).H;
     box.extend(h.head<3>() / h[3]);
   }
   if (box.diagonal().norm() > TouchSize * this->Size)
@@ -404,28 +406,29 @@ void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece
   {
     Vec2 value;
     Eigen::Matrix2d derivative;
-    Project(this->Evaluate(patch, at), ray, value, derivative);
+    Project(this->Evaluate(cell.Patch, at), ray, value, derivative);
     Eigen::Matrix2d square = derivative.transpose() * derivative;
     square.diagonal().array() += 1e-14 * square.trace() + std::numeric_limits<double>::min();
     at = Clamp(at - square.inverse() * derivative.transpose() * value, piece, slack);
     at = at.cwiseMax(0.0).cwiseMin(1.0);
   }
-  const PatchPoint point = this->Evaluate(patch, at);
+  const PatchPoint point = this->Evaluate(cell.Patch, at);
   const Vec2 value(ray.Homogeneous[0].dot(point.H), ray.Homogeneous[1].dot(point.H));
   if (value.norm() <= 10.0 * this->Rounding * point.H[3])
   {
-    this->AddHit(patch, at, true, hits);
+    this->AddHit(cell, at, true, hits);
   }
 }
 
 void PatchRays::AddHit(
-  std::int32_t index, const Vec2& found, bool singular, std::vector<PatchHit>& hits) const
+  const Cell& cell, const Vec2& found, bool singular, std::vector<PatchHit>& hits) const
 {
-  const Patch& patch = this->Patches[index];
+  const Patch& patch = this->Patches[cell.Patch];
   const Vec2 at = found.cwiseMax(0.0).cwiseMin(1.0);
-  const PatchPoint point = this->Evaluate(index, at);
+  const PatchPoint point = this->Evaluate(cell.Patch, at);
   PatchHit hit;
-  hit.Patch = index;
+  hit.Patch = cell.Patch;
+  hit.IsInside = cell.IsWhole;
   hit.Singular = singular;
   hit.Point = point.H.head<3>() / point.H[3];
   for (int k = 0; k < 2; ++k)

@@ -22,6 +22,7 @@ namespace nurbs
 
 class PatchCutter;
 struct Model;
+class TrimIndex;
 struct PatchPoint;
 struct RootPiece;
 
@@ -58,9 +59,11 @@ struct PatchHit
 class PatchRays
 {
 public:
-  /// Cuts the surfaces of the model's faces; one without a control net has no patches. Surfaces are
-  /// independent of each other, the result does not depend on `parallel`. Copies what it needs.
-  void Build(const Model& model, const ParallelFor& parallel);
+  /// Cuts the surfaces of the model's faces; one without a control net has no patches. What is trimmed
+  /// away is left out, if it is farther than `reach` (a length for each face) from what is not. Faces
+  /// are independent of each other, the result does not depend on `parallel`. Copies what it needs.
+  void Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+    const ParallelFor& parallel);
 
   std::int64_t CellCount() const { return static_cast<std::int64_t>(this->Cells.size()); }
   std::int64_t PatchCount() const { return static_cast<std::int64_t>(this->Patches.size()); }
@@ -110,16 +113,17 @@ private:
     float Radius;          ///< Of a ball around Middle that holds the cell.
     float Low[2], High[2]; ///< The cell's part of the patch, exact (dyadic).
     std::int32_t Patch;
+    bool IsWhole; ///< Nothing of it is trimmed away.
   };
 
   void Join(std::vector<PatchCutter>& cut);
   PatchPoint Evaluate(std::int32_t patch, const Vec2& at) const;
   void Search(const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
-  void Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece& root,
+  void Polish(const Cell& cell, const RayPlanes& ray, const RootPiece& root,
     std::vector<PatchHit>& hits) const;
-  void Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece& piece,
+  void Touch(const Cell& cell, const RayPlanes& ray, const PatchPiece& piece,
     std::vector<PatchHit>& hits) const;
-  void AddHit(std::int32_t patch, const Vec2& at, bool singular, std::vector<PatchHit>& hits) const;
+  void AddHit(const Cell& cell, const Vec2& at, bool singular, std::vector<PatchHit>& hits) const;
 
   std::vector<Patch> Patches;
   std::vector<Vec4> Points; ///< Homogeneous; the largest weight of a patch is 1.

@@ -73,21 +73,30 @@ RayCaster::RayCaster(const Model& model, const ParallelFor& parallel)
   : Source(&model)
   , Trims(model, parallel)
 {
-  this->Surfaces.Build(model, parallel);
-  // Where a box is flat, rounding must not lose it.
-  this->Tree.Build(this->Surfaces.Boxes(), 4.0 * this->Surfaces.GetRounding());
-  this->Surfaces.ReleaseBoxes();
-  this->Tolerance.reserve(model.Faces.size());
+  Box3 box;
   for (const Face& face : model.Faces)
   {
     this->Tolerance.push_back(LargestTolerance(model, face));
+    for (std::int64_t k = 0; k < face.Geometry.Size(); ++k)
+    {
+      box.extend(face.Geometry.Point(k));
+    }
   }
+  const double least = box.isEmpty() ? 0.0 : EdgePart * box.diagonal().norm();
+  for (const double tolerance : this->Tolerance)
+  {
+    this->Reach.push_back(2.0 * tolerance + least);
+  }
+  this->Surfaces.Build(model, this->Trims, this->Reach, parallel);
+  // Where a box is flat, rounding must not lose it.
+  this->Tree.Build(this->Surfaces.Boxes(), 4.0 * this->Surfaces.GetRounding());
+  this->Surfaces.ReleaseBoxes();
 }
 
 std::size_t RayCaster::MemoryUse() const
 {
   return this->Surfaces.MemoryUse() + this->Tree.MemoryUse() +
-    this->Tolerance.capacity() * sizeof(double);
+    (this->Tolerance.capacity() + this->Reach.capacity()) * sizeof(double);
 }
 
 /// Whether the face has material at the hit, or else within twice its edges' tolerance of it.
@@ -95,12 +104,11 @@ RayCaster::Place RayCaster::Locate(const PatchHit& hit) const
 {
   const std::int64_t face = this->Surfaces.FaceOf(hit.Patch);
   const FaceTrim& trim = this->Trims.Face(face);
-  if (trim.Inside(hit.UV[0], hit.UV[1]))
+  if (hit.IsInside || trim.Inside(hit.UV[0], hit.UV[1]))
   {
     return Place::Inside;
   }
-  const double reach =
-    2.0 * this->Tolerance[face] + EdgePart * this->Surfaces.Bounds().diagonal().norm();
+  const double reach = this->Reach[face];
   const double tiny = std::numeric_limits<double>::min();
   const double du = reach / std::max(hit.Su.norm(), tiny);
   const double dv = reach / std::max(hit.Sv.norm(), tiny);

@@ -110,6 +110,7 @@ private:
   PatchRays Surfaces;
   BoxTree Tree;
   std::vector<double> Tolerance; ///< A face's largest of its edges.
+  std::vector<double> Reach;     ///< How far outside a face a hit may count.
 };
 
 } // namespace nurbs

@@ -36,7 +36,10 @@ bool Counts(const TrimPiece& piece, const Vec3* inner, std::int32_t reference, c
     return false;
   }
   Vec2 local = (p - piece.Low).cwiseQuotient(piece.High - piece.Low);
-  local[0] = piece.Falling ? 1.0 - local[0] : local[0];
+  if (piece.Falling)
+  {
+    local[0] = (piece.High[0] - p[0]) / (piece.High[0] - piece.Low[0]);
+  }
   return LiesRight(piece, inner, local);
 }
 
@@ -88,8 +91,9 @@ bool FaceTrim::Locate(double u, double v, Vec2& p, std::int32_t& child) const
   return true;
 }
 
-bool FaceTrim::Inside(double u, double v) const
+bool FaceTrim::Inside(double u, double v, int& visited) const
 {
+  visited = 0;
   Vec2 p;
   std::int32_t child = TrimTree::AllOutside;
   if (!this->Locate(u, v, p, child) || child > TrimTree::FirstLeaf)
@@ -97,24 +101,31 @@ bool FaceTrim::Inside(double u, double v) const
     return child == TrimTree::AllInside;
   }
   const std::int32_t* leaf = this->Leaves.data() + 4 * std::int64_t(TrimTree::FirstLeaf - child);
-  bool inside = leaf[0] % 2 != 0;
-  for (std::int32_t k = 1; k <= leaf[0] / 2; ++k)
+  const std::int32_t* references = leaf + TrimTree::LeafHeader;
+  const auto counts = [&](std::int32_t reference) {
+    ++visited;
+    const auto piece = static_cast<std::size_t>(reference >> TrimTree::FlagBits);
+    return Counts(this->Pieces[piece], this->Inner.data(), reference, p);
+  };
+  std::int32_t right = 0;
+  for (std::int32_t end = leaf[1]; right < end;)
   {
-    const TrimPiece& piece = this->Pieces[static_cast<std::size_t>(leaf[k] >> TrimTree::FlagBits)];
-    inside = inside != Counts(piece, this->Inner.data(), leaf[k], p);
+    const std::int32_t middle = (right + end) / 2;
+    if (counts(references[middle]))
+    {
+      right = middle + 1;
+    }
+    else
+    {
+      end = middle;
+    }
+  }
+  bool inside = (leaf[0] + right) % 2 != 0;
+  for (std::int32_t k = leaf[1]; k < leaf[0] / 2; ++k)
+  {
+    inside = inside != counts(references[k]);
   }
   return inside;
-}
-
-int FaceTrim::VisitedCount(double u, double v) const
-{
-  Vec2 p;
-  std::int32_t child = TrimTree::AllOutside;
-  if (!this->Locate(u, v, p, child) || child > TrimTree::FirstLeaf)
-  {
-    return 0;
-  }
-  return this->Leaves[4 * static_cast<std::size_t>(TrimTree::FirstLeaf - child)] / 2;
 }
 
 std::int64_t FaceTrim::PointTexelCount() const
@@ -162,29 +173,45 @@ void FaceTrim::WriteTexels(std::int32_t pointStart, float* points, std::int32_t*
   *records++ = 0;
   for (std::size_t start = 0; start < this->Leaves.size();)
   {
-    const std::size_t end = start + TrimTree::LeafSize(this->Leaves[start] / 2);
-    *records++ = this->Leaves[start];
-    for (std::size_t k = start + 1; k < end; ++k)
+    const std::int32_t* leaf = this->Leaves.data() + start;
+    const std::int32_t count = leaf[0] / 2;
+    std::int32_t* next = std::copy(leaf, leaf + TrimTree::LeafHeader, records);
+    for (const std::int32_t* reference = leaf + TrimTree::LeafHeader;
+         reference < leaf + TrimTree::LeafHeader + count; ++reference)
     {
-      const std::int32_t reference = this->Leaves[k];
-      const bool used = k - start <= static_cast<std::size_t>(this->Leaves[start] / 2);
-      *records++ = used ? packed[static_cast<std::size_t>(reference >> TrimTree::FlagBits)] |
-          (reference & (TrimTree::Below | TrimTree::Above))
-                        : 0;
+      *next++ = packed[static_cast<std::size_t>(*reference >> TrimTree::FlagBits)] |
+        (*reference & (TrimTree::Below | TrimTree::Above));
     }
-    start = end;
+    std::fill(next, records + TrimTree::LeafSize(count), 0);
+    records += TrimTree::LeafSize(count);
+    start += TrimTree::LeafSize(count);
   }
 }
 
 TrimIndex::TrimIndex(const Model& model, const ParallelFor& parallel)
   : Faces(model.Faces.size())
 {
+  std::vector<std::string> errors(model.Faces.size()); // kept: threads may not throw
   parallel(0, this->FaceCount(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t face = begin; face < end; ++face)
     {
-      this->Rebuild(model, face);
+      try
+      {
+        this->Rebuild(model, face);
+      }
+      catch (const Error& error)
+      {
+        errors[static_cast<std::size_t>(face)] = error.what();
+      }
     }
   });
+  for (const std::string& error : errors)
+  {
+    if (!error.empty())
+    {
+      throw Error(error);
+    }
+  }
 }
 
 void TrimIndex::Rebuild(const Model& model, std::int64_t face)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace nurbs
 {
@@ -13,7 +14,14 @@ namespace
 constexpr double SmallestCell = 1e-6; // of the domain: floats have nothing left to tell apart
 constexpr double Margin = 1e-9;       // of the domain: well over what evaluation may be wrong
 constexpr int MaxDepth = 60;
-constexpr std::size_t Few = 8; // pieces that are left together if boxes do not tell them apart
+
+/// u of a straight piece at a height of its range; of any other piece that of its chord.
+double LineAt(const TrimPiece& piece, double v)
+{
+  const double part = (v - piece.Low[1]) / (piece.High[1] - piece.Low[1]);
+  const double size = piece.High[0] - piece.Low[0];
+  return piece.Falling ? piece.High[0] - part * size : piece.Low[0] + part * size;
+}
 
 } // namespace
 
@@ -27,7 +35,7 @@ TrimTree::TrimTree(TrimPieces pieces)
     all.References.push_back(static_cast<std::int32_t>(k) << FlagBits);
   }
   const Box2 domain(Vec2(0.0, 0.0), Vec2(1.0, 1.0));
-  const auto budget = 8 * static_cast<std::int64_t>(all.References.size()) + 16;
+  const auto budget = 16 * static_cast<std::int64_t>(all.References.size()) + 16;
   this->Root = this->Build(domain, this->Restrict(all, domain), budget, 0);
   this->DropUnused();
 }
@@ -39,7 +47,7 @@ std::int32_t TrimTree::Build(
   const SplitPlane plane = depth < MaxDepth ? this->BestSplit(cell, content) : SplitPlane();
   if (plane.Dir < 0)
   {
-    return this->MakeLeaf(content);
+    return this->MakeLeaf(cell, content);
   }
   Box2 halves[2] = { cell, cell };
   halves[0].max()[plane.Dir] = plane.At;
@@ -50,7 +58,7 @@ std::int32_t TrimTree::Build(
   const auto total = count + static_cast<std::int64_t>(high.References.size());
   if (total > budget)
   {
-    return this->MakeLeaf(content);
+    return this->MakeLeaf(cell, content);
   }
   const auto node = this->Nodes.size();
   this->Nodes.push_back({ plane.At, plane.Dir, { AllOutside, AllOutside } });
@@ -70,7 +78,7 @@ TrimTree::Content TrimTree::Restrict(const Content& content, const Box2& cell)
   std::vector<std::int32_t> joints; // at which pieces that are left out change the parity
   for (const std::int32_t reference : content.References)
   {
-    const TrimPiece& piece = this->Cut.Pieces[static_cast<std::size_t>(reference >> FlagBits)];
+    const TrimPiece& piece = this->PieceOf(reference);
     const bool below = (reference & Below) != 0;
     const bool above = (reference & Above) != 0;
     if (piece.High[1] <= cell.min()[1])
@@ -189,89 +197,215 @@ void TrimTree::Carry(const std::vector<std::int32_t>& joints, Content& content)
   }
 }
 
+namespace
+{
+
+/// What a query in a cell looks at: `ordered` pieces by bisection and all others.
+double Price(std::size_t all, std::size_t ordered)
+{
+  return static_cast<double>(all - ordered) + std::log2(1.0 + static_cast<double>(ordered));
+}
+
+/// Ends of pieces in one direction, sorted.
+struct Ends
+{
+  std::vector<double> Lows, Highs;
+  void Add(const TrimPiece& piece, int dir)
+  {
+    this->Lows.push_back(piece.Low[dir]);
+    this->Highs.push_back(piece.High[dir]);
+  }
+  void Sort()
+  {
+    std::sort(this->Lows.begin(), this->Lows.end());
+    std::sort(this->Highs.begin(), this->Highs.end());
+  }
+  std::size_t Size() const { return this->Lows.size(); }
+  static std::size_t Less(const std::vector<double>& sorted, double x)
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(sorted.begin(), sorted.end(), x) - sorted.begin());
+  }
+  static std::size_t UpTo(const std::vector<double>& sorted, double x)
+  {
+    return static_cast<std::size_t>(
+      std::upper_bound(sorted.begin(), sorted.end(), x) - sorted.begin());
+  }
+};
+
+/// The pieces of a cell, for finding out what a split would cost.
+class Census
+{
+public:
+  Census(const Box2& cell)
+    : Cell(cell)
+  {}
+
+  void Add(const TrimPiece& piece)
+  {
+    const bool line = piece.Degree == 1;
+    const bool fromBottom = line && piece.Low[1] <= this->Cell.min()[1];
+    const bool toTop = line && piece.High[1] >= this->Cell.max()[1];
+    this->All[0].Add(piece, 0);
+    this->All[1].Add(piece, 1);
+    if (fromBottom)
+    {
+      this->FromBottom.Add(piece, 1);
+    }
+    if (toTop)
+    {
+      this->ToTop.Add(piece, 1);
+    }
+    if (fromBottom && toTop)
+    {
+      this->Through.Add(piece, 0);
+    }
+  }
+
+  void Sort()
+  {
+    for (Ends* ends :
+      { &this->All[0], &this->All[1], &this->FromBottom, &this->ToTop, &this->Through })
+    {
+      ends->Sort();
+    }
+  }
+
+  double Unsplit() const { return Price(this->All[0].Size(), this->Through.Size()); }
+
+  /// The mean over the cell if it is split at a coordinate, as far as the pieces' boxes tell.
+  double Split(int dir, double at) const
+  {
+    const std::size_t low = Ends::Less(this->All[dir].Lows, at);
+    const std::size_t high = this->All[dir].Size() - Ends::UpTo(this->All[dir].Highs, at);
+    std::size_t ordered[2];
+    if (dir == 0)
+    {
+      ordered[0] = Ends::Less(this->Through.Lows, at);
+      ordered[1] = this->Through.Size() - Ends::UpTo(this->Through.Highs, at);
+    }
+    else
+    {
+      ordered[0] = this->FromBottom.Size() - Ends::Less(this->FromBottom.Highs, at);
+      ordered[1] = Ends::UpTo(this->ToTop.Lows, at);
+    }
+    const double part = (at - this->Cell.min()[dir]) / this->Cell.sizes()[dir];
+    return part * Price(low, ordered[0]) + (1.0 - part) * Price(high, ordered[1]);
+  }
+
+  const Ends& In(int dir) const { return this->All[dir]; }
+
+private:
+  const Box2& Cell;
+  Ends All[2];
+  Ends FromBottom, ToTop, Through; ///< Lines that reach the cell's sides.
+};
+
+/// True if a lies left of b, or they touch, all over the cell's height, which both span.
+bool IsLeftOf(const TrimPiece& a, const TrimPiece& b, const Box2& cell)
+{
+  if (a.High[0] <= b.Low[0])
+  {
+    return true;
+  }
+  return a.Degree == 1 && b.Degree == 1 && LineAt(a, cell.min()[1]) <= LineAt(b, cell.min()[1]) &&
+    LineAt(a, cell.max()[1]) <= LineAt(b, cell.max()[1]);
+}
+
+} // namespace
+
 /// The split after which a point of the cell has the least to look at (surface area heuristic, with
-/// a node's price that of a piece): at the ends of pieces' boxes; in the middle, if there are many
-/// pieces whose boxes overlap too much for that, as beside each other along a diagonal.
+/// a node's price that of a piece), among the ends of pieces' boxes.
 TrimTree::SplitPlane TrimTree::BestSplit(const Box2& cell, const Content& content) const
 {
   SplitPlane best;
-  const std::size_t n = content.References.size();
-  if (n < 2)
+  if (content.References.size() < 2)
   {
     return best;
   }
-  double least = static_cast<double>(n) - 1.0;
-  std::vector<double> ends[2];
+  Census census(cell);
+  for (const std::int32_t reference : content.References)
+  {
+    census.Add(this->PieceOf(reference));
+  }
+  census.Sort();
+  double least = census.Unsplit() - 1.0;
   for (int dir = 0; dir < 2; ++dir)
   {
-    const double from = cell.min()[dir];
-    const double size = cell.max()[dir] - from;
-    for (int end = 0; end < 2; ++end)
+    const double from = cell.min()[dir] + SmallestCell;
+    const double to = cell.max()[dir] - SmallestCell;
+    for (const std::vector<double>* ends : { &census.In(dir).Lows, &census.In(dir).Highs })
     {
-      ends[end].clear();
-      for (const std::int32_t reference : content.References)
+      for (const double at : *ends)
       {
-        const TrimPiece& piece = this->Cut.Pieces[static_cast<std::size_t>(reference >> FlagBits)];
-        ends[end].push_back((end == 0 ? piece.Low : piece.High)[dir]);
-      }
-      std::sort(ends[end].begin(), ends[end].end());
-    }
-    for (const std::vector<double>& candidates : ends)
-    {
-      std::size_t low = 0;  // pieces that reach below the split
-      std::size_t done = 0; // pieces that do not reach over it
-      for (const double at : candidates)
-      {
-        for (; low < n && ends[0][low] < at; ++low)
-        {}
-        for (; done < n && ends[1][done] <= at; ++done)
-        {}
-        const double part = (at - from) / size;
-        const double cost =
-          part * static_cast<double>(low) + (1.0 - part) * static_cast<double>(n - done);
-        if (cost < least && at - from > SmallestCell && cell.max()[dir] - at > SmallestCell)
+        const double price = at > from && at < to ? census.Split(dir, at) : least;
+        if (price < least)
         {
-          least = cost;
+          least = price;
           best = { dir, at };
         }
       }
     }
   }
-  if (best.Dir < 0 && n > Few && cell.sizes().maxCoeff() > 2.0 * SmallestCell)
-  {
-    const int dir = cell.sizes()[1] > cell.sizes()[0] ? 1 : 0;
-    best = { dir, 0.5 * (cell.min()[dir] + cell.max()[dir]) };
-  }
   return best;
 }
 
-std::int32_t TrimTree::MakeLeaf(const Content& content)
+/// Moves pieces that span the cell's height and do not cross there to the front, right to left.
+/// Returns how many.
+std::int32_t TrimTree::Order(const Box2& cell, std::vector<std::int32_t>& references) const
+{
+  const auto rest =
+    std::stable_partition(references.begin(), references.end(), [&](std::int32_t reference) {
+      const TrimPiece& piece = this->PieceOf(reference);
+      return piece.Low[1] <= cell.min()[1] && piece.High[1] >= cell.max()[1];
+    });
+  const double middle = 0.5 * (cell.min()[1] + cell.max()[1]);
+  std::sort(references.begin(), rest, [&](std::int32_t a, std::int32_t b) {
+    return LineAt(this->PieceOf(a), middle) > LineAt(this->PieceOf(b), middle);
+  });
+  std::vector<std::int32_t> ordered;
+  std::vector<std::int32_t> others;
+  for (auto it = references.begin(); it != references.end(); ++it)
+  {
+    const bool fits = it < rest &&
+      (ordered.empty() || IsLeftOf(this->PieceOf(*it), this->PieceOf(ordered.back()), cell));
+    (fits ? ordered : others).push_back(*it);
+  }
+  const auto count = static_cast<std::int32_t>(ordered.size());
+  references.swap(ordered);
+  references.insert(references.end(), others.begin(), others.end());
+  return count;
+}
+
+std::int32_t TrimTree::MakeLeaf(const Box2& cell, const Content& content)
 {
   bool parity = content.Parity;
-  std::vector<std::int32_t> leaf{ 0 };
+  std::vector<std::int32_t> references;
   for (const std::int32_t reference : content.References)
   {
-    const TrimPiece& piece = this->Cut.Pieces[static_cast<std::size_t>(reference >> FlagBits)];
+    const TrimPiece& piece = this->PieceOf(reference);
     const std::int32_t flags = reference & (Below | Above);
     if (piece.Low[1] < piece.High[1] || flags == Below || flags == Above)
     {
-      leaf.push_back(reference);
+      references.push_back(reference);
     }
     else // a level piece that counts the same above and below itself
     {
       parity = parity != (flags != 0);
     }
   }
-  const auto count = static_cast<std::int32_t>(leaf.size()) - 1;
-  if (count == 0)
+  if (references.empty())
   {
     return parity ? AllInside : AllOutside;
   }
-  leaf[0] = 2 * count + (parity ? 1 : 0);
-  leaf.resize(LeafSize(count), 0);
-  const auto texel = static_cast<std::int32_t>(this->Leaves.size() / 4);
-  this->Leaves.insert(this->Leaves.end(), leaf.begin(), leaf.end());
-  return FirstLeaf - texel;
+  const std::int32_t ordered = this->Order(cell, references);
+  const auto count = static_cast<std::int32_t>(references.size());
+  const std::size_t start = this->Leaves.size();
+  this->Leaves.push_back(2 * count + (parity ? 1 : 0));
+  this->Leaves.push_back(ordered);
+  this->Leaves.insert(this->Leaves.end(), references.begin(), references.end());
+  this->Leaves.resize(start + LeafSize(count), 0);
+  return FirstLeaf - static_cast<std::int32_t>(start / 4);
 }
 
 /// Drops pieces that no leaf refers to: level ones, those along the domain's sides and beyond it.
@@ -282,7 +416,8 @@ void TrimTree::DropUnused()
   for (std::size_t start = 0; start < this->Leaves.size();)
   {
     const std::int32_t count = this->Leaves[start] / 2;
-    for (std::size_t k = start + 1; k <= start + static_cast<std::size_t>(count); ++k)
+    const std::size_t first = start + LeafHeader;
+    for (std::size_t k = first; k < first + static_cast<std::size_t>(count); ++k)
     {
       std::int32_t& reference = this->Leaves[k];
       const auto old = static_cast<std::size_t>(reference >> FlagBits);
@@ -292,7 +427,7 @@ void TrimTree::DropUnused()
         TrimPiece piece = this->Cut.Pieces[old];
         const auto inner = this->Cut.Inner.begin() + piece.FirstInner;
         piece.FirstInner = static_cast<std::int32_t>(kept.Inner.size());
-        kept.Inner.insert(kept.Inner.end(), inner, inner + piece.Degree - 1);
+        kept.Inner.insert(kept.Inner.end(), inner, inner + (piece.Degree - 1));
         kept.Pieces.push_back(piece);
       }
       reference = (number[old] << FlagBits) | (reference & (Below | Above));

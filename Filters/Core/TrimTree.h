@@ -45,16 +45,18 @@ public:
   /// Of a leaf with `count` references: whole texels of four integers.
   static constexpr std::size_t LeafSize(std::int32_t count)
   {
-    return 4 * (static_cast<std::size_t>(count) / 4 + 1);
+    return (LeafHeader + static_cast<std::size_t>(count) + 3) / 4 * 4;
   }
+  static constexpr std::size_t LeafHeader = 2;
 
-  /// Builds the tree over [0, 1] x [0, 1]. At most 8 n + 16 references for n pieces.
+  /// Builds the tree over [0, 1] x [0, 1]. At most 16 n + 16 references for n pieces.
   explicit TrimTree(TrimPieces pieces);
 
   std::int32_t Root = AllOutside;
   std::vector<Node> Nodes;
-  /// 2 x (number of references) + (parity of what is not referred to), references; zeros up to a
-  /// multiple of 4.
+  /// 2 x (number of references) + (parity of what is not referred to); how many of them are ordered;
+  /// the references, ordered ones first, from right to left: they span the cell's height and do not
+  /// cross there, so that bisection finds how many lie right of a point. Zeros up to a whole texel.
   std::vector<std::int32_t> Leaves;
   TrimPieces Cut; ///< Those pieces that are referred to.
 
@@ -77,7 +79,12 @@ private:
   bool IsRightOf(const TrimPiece& piece, double u, double v) const;
   void Carry(const std::vector<std::int32_t>& joints, Content& content);
   SplitPlane BestSplit(const Box2& cell, const Content& content) const;
-  std::int32_t MakeLeaf(const Content& content);
+  std::int32_t MakeLeaf(const Box2& cell, const Content& content);
+  std::int32_t Order(const Box2& cell, std::vector<std::int32_t>& references) const;
+  const TrimPiece& PieceOf(std::int32_t reference) const
+  {
+    return this->Cut.Pieces[static_cast<std::size_t>(reference >> FlagBits)];
+  }
   void DropUnused();
 
   std::vector<std::int32_t> Slot; ///< A piece's place in the content at hand, -1: not there.
