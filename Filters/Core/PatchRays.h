@@ -50,9 +50,9 @@ struct PatchHit
   std::int32_t Patch;
   double UV[2]; ///< The surface's parameters, in the patch's part of the domain.
   Vec3 Point;
-  Vec3 Su, Sv; ///< Derivatives with respect to UV.
-  bool
-    Singular; ///< The ray touches the surface, or meets a pole: Su, Sv and the ray are dependent.
+  Vec3 Su, Sv;   ///< Derivatives with respect to UV.
+  bool IsInside; ///< Surely not trimmed away; if false, that is not known.
+  bool Singular; ///< The ray touches the surface or meets a pole: Su, Sv and it are dependent.
 };
 
 /// The patches of the surfaces of a model. Constant once built, and safe to use from many threads.
