@@ -8,8 +8,9 @@
 /// Precision: hits lie on the surface to rounding, and on the ray to about 1e-13 of the model's size
 /// (unless the ray grazes the surface: then to rounding across the ray, and to the square root of that
 /// along it). No hit is lost between patches of a face. Between faces whose edges agree within a
-/// tolerance only (Edge::Tolerance), a point that is outside of its face by up to twice that still
-/// counts, so that no ray slips through.
+/// tolerance only (Edge::Tolerance), a point that is outside of its face by up to twice that counts
+/// where it lies beside two faces, or where else hits would not enter and leave by turns: so no ray
+/// slips through, and none is stopped that passes.
 #pragma once
 
 #include "BoxTree.h"
@@ -73,6 +74,9 @@ public:
   const BoxTree& GetTree() const { return this->Tree; }
   std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
 
+  /// The model given.
+  const Model& GetModel() const { return *this->Source; }
+
   /// Trimming, as the queries see it.
   const TrimIndex& GetTrims() const { return this->Trims; }
 
@@ -83,19 +87,30 @@ public:
 
 private:
   struct Cast;
+  struct Candidate;
+  enum class Place
+  {
+    Inside,
+    Beside, ///< Outside of the face, but within its edges' tolerance.
+    Outside
+  };
 
-  bool IsInside(const PatchHit& hit) const;
+  Place Locate(const PatchHit& hit) const;
   void Finish(const Cast& cast, const PatchHit& hit, RayHit& out) const;
+  double Noise(const RayHit& a, const RayHit& b, const Vec3& direction) const;
   double Spread(const RayHit& a, const RayHit& b, const Vec3& direction) const;
-  void Merge(std::vector<RayHit>& hits, const Vec3& direction) const;
   template <typename Found>
   void Walk(const Cast& cast, double& tMax, const Found& found) const;
+  bool Gather(const Cast& cast, std::vector<Candidate>& found) const;
+  void Merge(std::vector<Candidate>& found, const Vec3& direction) const;
+  static void KeepNeeded(std::vector<Candidate>& found);
 
   const Model* Source;
   TrimIndex Trims;
   PatchRays Surfaces;
   BoxTree Tree;
   std::vector<double> Tolerance; ///< A face's largest of its edges.
+  std::vector<double> Reach;     ///< How far outside a face a hit may count.
 };
 
 } // namespace nurbs

@@ -870,7 +870,7 @@ TEST(BoxTree, VisitsAllThatTheRayMeets)
       });
       std::vector<int> found(count, 0);
       tree.Search(
-        [&](const Box3& box) { return box.contains(o); }, [&](std::int32_t box) { ++found[box]; });
+        [&](const Box3& box) { return box.contains(o); }, [&](std::int32_t box, const Box3&) { ++found[box]; });
       for (int k = 0; k < count; ++k)
       {
         double a = low, b = limit;
