@@ -455,7 +455,8 @@ void vtkNURBSMapper::ReplaceShaderValues(
       "//VTK::System::Dec\n#extension GL_ARB_sample_shading : require\n");
   }
   substitute(fragment, "//VTK::UniformFlow::Impl",
-    "  nurbsBeginFragment();\n  //VTK::UniformFlow::Impl\n");
+    std::string("  nurbsBeginFragment();\n") + (this->HasLook(actor) ? "  nurbsBeginLook();\n" : "") +
+      "  //VTK::UniformFlow::Impl\n");
   // Before depth peeling, which looks at the depth of what stays.
   substitute(fragment, "//VTK::Depth::Impl",
     "  if (!nurbsIsSeen) { discard; }\n  //VTK::Depth::Impl\n");

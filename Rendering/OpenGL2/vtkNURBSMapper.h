@@ -124,7 +124,7 @@ public:
 
   ///@{
   /**
-   * Stripes in 180 degrees, of ZEBRA and ISOPHOTES. Default 36, 2 to 720.
+   * Stripes in 180 degrees, of ZEBRA and ISOPHOTES. Default 18, 2 to 720.
    */
   vtkSetClampMacro(NumberOfStripes, int, 2, 720);
   vtkGetMacro(NumberOfStripes, int);
@@ -201,7 +201,7 @@ protected:
   int Look = PLAIN;
   vtkSmartPointer<vtkScalarsToColors> LookTable;
   double LookDirection[3] = { 0.0, 0.0, 1.0 };
-  int NumberOfStripes = 36;
+  int NumberOfStripes = 18;
   int NumberOfIsoLines[2] = { 0, 0 };
   double AchievedPixelError = 0.0;
   vtkIdType NumberOfTriangles = 0;

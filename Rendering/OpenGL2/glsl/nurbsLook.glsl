@@ -58,12 +58,24 @@ vec3 nurbsLookUp(float value)
   return texelFetch(nurbsLookTable, int(clamp(share, 0.0, 1.0) * last + 0.5)).rgb;
 }
 
-// 0 or 1 by turns, `stripes` in 180 degrees, smooth over a pixel. The width of a pixel in degrees is
-// that of a mean curvature over it, and more need not be known.
-float nurbsStripe(float cosine)
+float nurbsPhase; // stripes counted from where the direction is looked at
+float nurbsPhaseWidth; // how many of them a pixel sees
+
+// Sets the variables above; called in uniform control flow.
+void nurbsBeginLook()
 {
-  float x = acos(clamp(cosine, -1.0, 1.0)) / 3.14159265 * nurbsStripes;
-  return step(0.5, fract(0.5 * x));
+  vec3 normal = nurbsNormal(vec3(0.0, 0.0, 1.0));
+  vec3 line = nurbsLookKind == 5 ? reflect(normalize(nurbsSight), normal) : normal;
+  nurbsPhase = acos(clamp(dot(line, nurbsLookDirection), -1.0, 1.0)) / 3.14159265 * nurbsStripes;
+  nurbsPhaseWidth = fwidth(nurbsPhase);
+}
+
+// Black and white by turns, grey where they are finer than pixels.
+float nurbsStripe()
+{
+  float wave = abs(fract(0.5 * nurbsPhase) - 0.5) - 0.25; // distance from a stripe's border, halved
+  float sharp = clamp(0.5 + 2.0 * wave / max(nurbsPhaseWidth, 1e-6), 0.0, 1.0);
+  return mix(sharp, 0.5, clamp(nurbsPhaseWidth - 0.5, 0.0, 1.0));
 }
 
 // How much of the pixel is a line that is `distance` pixels away.
@@ -84,13 +96,9 @@ vec3 nurbsLook(vec3 color)
         : nurbsLookKind == 3              ? curvature.x - root
                                           : curvature.x + root);
   }
-  else if (nurbsLookKind == 5) // zebra: what a mirror shows of a room of striped walls
+  else if (nurbsLookKind == 5 || nurbsLookKind == 6) // zebra, isophotes
   {
-    color *= nurbsStripe(dot(reflect(normalize(nurbsSight), normal), nurbsLookDirection));
-  }
-  else if (nurbsLookKind == 6) // isophotes
-  {
-    color *= nurbsStripe(dot(normal, nurbsLookDirection));
+    color *= nurbsStripe();
   }
   else if (nurbsLookKind == 7) // draft angle: of the surface and the direction
   {
