@@ -77,6 +77,19 @@ public:
   vtkBooleanMacro(ExactFragments, bool);
   ///@}
 
+  ///@{
+  /**
+   * Frames a second to be reached while the window asks for many, as an interactor does while the
+   * camera moves (vtkRenderWindow::SetDesiredUpdateRate). Where the whole is too slow for it, pixels take
+   * the triangles' points, then what was evaluated is drawn at coarser levels, without evaluating it
+   * again and with all values between levels, so that nothing jumps. Default 15; 0: always the whole.
+   * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 2.
+   */
+  vtkSetClampMacro(InteractiveFrameRate, double, 0.0, 1000.0);
+  vtkGetMacro(InteractiveFrameRate, double);
+  double GetCoarserLevels();
+  ///@}
+
   /// What surfaces show instead of their colour; see SetLook.
   enum Looks
   {
@@ -198,6 +211,7 @@ protected:
 
   double PixelError = 0.5;
   bool ExactFragments = true;
+  double InteractiveFrameRate = 15.0;
   int Look = PLAIN;
   vtkSmartPointer<vtkScalarsToColors> LookTable;
   double LookDirection[3] = { 0.0, 0.0, 1.0 };
@@ -216,11 +230,13 @@ private:
   bool HasLook(vtkActor* actor);
   bool DrawsExactly(vtkActor* actor);
   std::string GetDefines(vtkActor* actor);
-  void SetExactParameters(vtkOpenGLRenderWindow* window, vtkShaderProgram* program);
+  void SetSurfaceParameters(
+    vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void SetLookParameters(
     vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
   void UpdateSamples(vtkRenderer* renderer);
+  void UpdateEconomy(vtkRenderer* renderer);
 
   struct Internals;
   std::unique_ptr<Internals> Content;

@@ -9,15 +9,32 @@ nurbsTileInfo nurbsFaceTile;
 vec2 nurbsStart; // of the patch in the face's domain, 0 to 1
 vec2 nurbsSize;
 
+uniform float nurbsMargin; // pixels by which triangles may be off the surface, and reach over its borders
+mat2 nurbsPerPixel;        // change of t with x and y on screen
+
+// Whether the face's trims leave a point over, or one within so many pixels: neighbours may disagree
+// that much about where their edge is.
+bool nurbsIsUntrimmed(vec2 t, float gap)
+{
+  int trim = nurbsFaceTile.trim;
+  vec2 st = nurbsStart + t * nurbsSize;
+  if (trim < 0 || nurbsInside(trim, st))
+  {
+    return true;
+  }
+  vec2 x = gap * nurbsPerPixel[0] * nurbsSize;
+  vec2 y = gap * nurbsPerPixel[1] * nurbsSize;
+  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
+    nurbsInside(trim, st - y);
+}
+
 #ifdef NURBS_EXACT
 
-uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 
 nurbsFound nurbsHere; // the point that this fragment shows
 float nurbsDepth;     // its depth, 0 to 1
 vec3 nurbsSight;      // direction away from the eye
-mat2 nurbsPerPixel;   // change of t with x and y on screen
 
 void nurbsShow(nurbsRay ray, nurbsFound found)
 {
@@ -53,22 +70,6 @@ bool nurbsIsOnPatch(vec2 t)
     }
   }
   return true;
-}
-
-// Whether the face's trims leave a point over, or a place so near that neighbours may disagree about
-// where their edge is.
-bool nurbsIsUntrimmed(vec2 t)
-{
-  int trim = nurbsFaceTile.trim;
-  vec2 st = nurbsStart + t * nurbsSize;
-  if (trim < 0 || nurbsInside(trim, st))
-  {
-    return true;
-  }
-  vec2 x = nurbsGap() * nurbsPerPixel[0] * nurbsSize;
-  vec2 y = nurbsGap() * nurbsPerPixel[1] * nurbsSize;
-  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
-    nurbsInside(trim, st - y);
 }
 
 #ifdef NURBS_SAMPLES
@@ -118,7 +119,7 @@ bool nurbsFindSamples()
         shown = true;
       }
     }
-    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t) : coverage > 0.5;
+    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t, nurbsGap()) : coverage > 0.5;
     if (untrimmed && nurbsIsOnPatch(t))
     {
       mask |= 1 << i;
@@ -167,9 +168,10 @@ void nurbsBeginFragment()
   nurbsFound found;
   nurbsIsSeen = nurbsHit(ray, nurbsFaceTile, nurbsT, found);
   nurbsShow(ray, found);
-  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t);
+  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t, nurbsGap());
 #else
-  nurbsIsSeen = nurbsFaceTile.trim < 0 || nurbsInside(nurbsFaceTile.trim, nurbsStart + nurbsT * nurbsSize);
+  nurbsPerPixel = mat2(dFdx(nurbsT), dFdy(nurbsT));
+  nurbsIsSeen = nurbsIsUntrimmed(nurbsT, nurbsMargin);
 #endif
 }
 
