@@ -20,6 +20,7 @@
 #include "vtkNURBSGridIndices.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSTessellatedDrawing.h"
 #include "vtkNURBSTileTextures.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
@@ -95,6 +96,7 @@ struct vtkNURBSMapper::Internals
   vtkNURBSBufferTexture LookTexture{ vtkNURBSBufferTexture::COLOR };
   vtkNURBSBufferTexture FaceIds{ vtkNURBSBufferTexture::INTEGER4 };
   vtkNURBSBufferTexture LookColors{ vtkNURBSBufferTexture::COLOR };
+  vtkNURBSTessellatedDrawing Tessellated;
   vtkNURBSFrameRate FrameRate;
   int Samples = 0; ///< Of a pixel, if fragments choose among them; else 0.
   vtkNURBSFaceLooks Looks;
@@ -251,7 +253,7 @@ void vtkNURBSMapper::ComputeBounds()
   }
 }
 
-// Sends what the device does not have yet. False, after an error was told, if it can't take it.
+// Sends what the device does not have yet. False, after a warning that tells why, if it can't take it.
 bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
 {
   Internals& c = *this->Content;
@@ -298,7 +300,7 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
   {
     if (c.LastError != error)
     {
-      vtkErrorMacro("The model can't be drawn: " << error);
+      vtkWarningMacro("The model is drawn by the CPU's tessellator: " << error << ".");
       c.LastError = error;
     }
     return false;
@@ -329,8 +331,16 @@ void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
     this->GetInputAlgorithm()->Update();
   }
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
-  if (!this->UpdateModel() || !this->UpdateTextures(renderer))
+  if (!this->UpdateModel())
   {
+    return;
+  }
+  this->DrawsTessellation = this->UseTessellation || !this->UpdateTextures(renderer);
+  if (this->DrawsTessellation)
+  {
+    this->Content->Tessellated.Render(this, this->GetInputDataObject(0, 0), renderer, actor);
+    this->NumberOfTriangles = this->Content->Tessellated.GetNumberOfTriangles();
+    this->AchievedPixelError = this->PixelError;
     return;
   }
   this->UpdateCameraShiftScale(renderer, actor);
@@ -812,6 +822,7 @@ void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;
+  c.Tessellated.ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -841,6 +852,7 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
   {
     this->SetPixelError(mapper->GetPixelError());
     this->SetExactFragments(mapper->GetExactFragments());
+    this->SetUseTessellation(mapper->GetUseTessellation());
     this->SetInteractiveFrameRate(mapper->GetInteractiveFrameRate());
     this->SetLook(mapper->GetLook());
     this->SetLookTable(mapper->GetLookTable());
@@ -857,6 +869,8 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PixelError: " << this->PixelError << "\n"
      << indent << "ExactFragments: " << this->ExactFragments << "\n"
+     << indent << "UseTessellation: " << this->UseTessellation << "\n"
+     << indent << "DrawsTessellation: " << this->DrawsTessellation << "\n"
      << indent << "InteractiveFrameRate: " << this->InteractiveFrameRate << "\n"
      << indent << "Look: " << this->Look << "\n"
      << indent << "LookTable: " << this->LookTable.Get() << "\n"

@@ -18,7 +18,8 @@
  *
  * When control points move, only theirs are sent and only their surfaces evaluated again.
  *
- * Needs OpenGL 3.2. Where the device can't do it, a warning tells why.
+ * Needs OpenGL 3.2. Where the device can't do it, a warning tells why, and the model is drawn by
+ * vtkNURBSTessellator.
  *
  * A mapper's textures live in one window at a time: drawn in another one, it moves there.
  *
@@ -75,6 +76,18 @@ public:
   vtkSetMacro(ExactFragments, bool);
   vtkGetMacro(ExactFragments, bool);
   vtkBooleanMacro(ExactFragments, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether triangles of vtkNURBSTessellator, within PixelError, are drawn instead, even if the device
+   * can do better. Default off. GetDrawsTessellation tells whether the last frame was drawn that way,
+   * for this or because the device can't evaluate the model; then picked cells are triangles.
+   */
+  vtkSetMacro(UseTessellation, bool);
+  vtkGetMacro(UseTessellation, bool);
+  vtkBooleanMacro(UseTessellation, bool);
+  vtkGetMacro(DrawsTessellation, bool);
   ///@}
 
   ///@{
@@ -211,6 +224,8 @@ protected:
 
   double PixelError = 0.5;
   bool ExactFragments = true;
+  bool UseTessellation = false;
+  bool DrawsTessellation = false;
   double InteractiveFrameRate = 15.0;
   int Look = PLAIN;
   vtkSmartPointer<vtkScalarsToColors> LookTable;
