@@ -36,7 +36,7 @@ public:
 private:
   const FaceTrim& Trim;
   Interval Domain[2];
-  std::vector<Box2> Boxes; ///< Of monotone pieces of the trim curves.
+  std::vector<Box2> Boxes; ///< Of short pieces of the trim curves.
 };
 
 /// Takes the patches of one surface and makes what PatchRays keeps of them.

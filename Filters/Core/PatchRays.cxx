@@ -169,8 +169,13 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
   this->Points.reserve(points);
   this->Cells.reserve(cells);
   this->CellBoxes.reserve(cells);
+  this->Box.setEmpty();
   for (PatchCutter& surface : cut)
   {
+    for (const Box3& box : surface.Boxes)
+    {
+      this->Box.extend(box);
+    }
     const std::int32_t firstPatch = static_cast<std::int32_t>(this->Patches.size());
     const std::int64_t firstPoint = static_cast<std::int64_t>(this->Points.size());
     for (Patch patch : surface.Patches)
@@ -187,6 +192,7 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
     this->CellBoxes.insert(this->CellBoxes.end(), surface.Boxes.begin(), surface.Boxes.end());
     surface = PatchCutter(this->Size);
   }
+  this->Size = this->Box.isEmpty() ? 0.0 : this->Box.diagonal().norm();
 }
 
 std::size_t PatchRays::MemoryUse() const
@@ -370,7 +376,10 @@ void PatchRays::Polish(
     const double enough = newton ? NewtonEnd : ChordEnd;
     if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {
-      this->AddHit(cell, at - move, false, hits);
+      if (Clamp(at - move, root.Piece, slack) == Vec2(at - move))
+      {
+        this->AddHit(cell, at - move, false, hits);
+      }
       return;
     }
     const Vec2 last = at;

@@ -73,7 +73,7 @@ public:
   /// Forgets them; whoever asked for them has a tree by now.
   void ReleaseBoxes() { std::vector<Box3>().swap(this->CellBoxes); }
 
-  /// The box of all control points.
+  /// The box of the cells' control points, empty if there are none.
   const Box3& Bounds() const { return this->Box; }
 
   std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
@@ -130,7 +130,7 @@ private:
   std::vector<Cell> Cells;
   std::vector<Box3> CellBoxes;
   Box3 Box;
-  double Size = 0.0;     ///< Diagonal of Box.
+  double Size = 0.0;     ///< Diagonal of Box; while cells are made, of all control points.
   double Rounding = 0.0; ///< What evaluating a point may err by.
 };
 

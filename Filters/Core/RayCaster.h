@@ -67,7 +67,7 @@ public:
   /// with that face, but may have with its neighbours. Throws as Nearest does.
   void All(const Ray& ray, std::vector<RayHit>& hits) const;
 
-  /// The box of the model's control points, empty if there are none.
+  /// A box around what is left of the surfaces by trimming, a bit larger; empty if there is nothing.
   const Box3& Bounds() const { return this->Surfaces.Bounds(); }
 
   /// The tree over the parts of surfaces, and the face of each: for searches by box.

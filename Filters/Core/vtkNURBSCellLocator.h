@@ -106,8 +106,8 @@ public:
     vtkIdType& cellId, int& subId, double& dist2) override;
   vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
     vtkGenericCell* cell, vtkIdType& cellId, int& subId, double& dist2, int& inside) override;
-  vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3],
-    double* weights) override;
+  vtkIdType FindCell(
+    double x[3], double tol2, vtkGenericCell* cell, double pcoords[3], double* weights) override;
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
   vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
     double* weights) override;

@@ -65,7 +65,8 @@ std::vector<nurbs::Ray> RandomLines(const nurbs::Box3& box, int count)
   {
     const nurbs::Vec3 at(part(engine), part(engine), part(engine));
     ray.Direction = nurbs::Vec3(normal(engine), normal(engine), normal(engine)).normalized();
-    ray.Origin = box.min() + at.cwiseProduct(box.sizes()) - 2.0 * box.diagonal().norm() * ray.Direction;
+    ray.Origin =
+      box.min() + at.cwiseProduct(box.sizes()) - 2.0 * box.diagonal().norm() * ray.Direction;
   }
   return rays;
 }
