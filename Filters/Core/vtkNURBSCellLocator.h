@@ -74,7 +74,8 @@ public:
     const double p1[3], const double p2[3], double tolerance, vtkIdList* cells) override;
 
   /**
-   * The faces with a part whose box meets `bbox` (trimmed away or not), in ascending order.
+   * The faces with a part whose box meets `bbox`, in ascending order. A part is a piece of surface that
+   * is not all trimmed away.
    */
   void FindCellsWithinBounds(double* bbox, vtkIdList* cells) override;
 
