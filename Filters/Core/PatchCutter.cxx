@@ -327,9 +327,9 @@ void PatchCutter::Cut(
   this->Cut(context, high, highQuotients, depth + 1);
 }
 
-/// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which
-/// s - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction in
-/// which they do so more.
+/// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which s
+/// - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
+/// in which they do so more.
 double PatchCutter::Flatten(
   const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir) const
 {

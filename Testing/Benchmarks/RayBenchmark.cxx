@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays a second through exact models, in one thread: RayBenchmark [--rays N] [--patches N] [FILE...].
-// Without a file: analytic shapes. One line a model (of a file: its largest one) and kind of rays:
-// lines through random points of its box in random directions, and the parallel rays of a picture
-// along x, which meet many planes and cylinders at a grazing angle. "uneven" counts lines along which
-// hits do not enter and leave by turns: none for a sound solid, save at vertices that they meet.
+// Rays a second through exact models, in one thread: RayBenchmark [--rays N] [--patches N]
+// [FILE...]. Without a file: analytic shapes. One line a model (of a file: its largest one) and
+// kind of rays: lines through random points of its box in random directions, and the parallel rays
+// of a picture along x, which meet many planes and cylinders at a grazing angle. "uneven" counts
+// lines along which hits do not enter and leave by turns: none for a sound solid, save at vertices
+// that they meet.
 #include "Measuring.h"
 #include "RayCaster.h"
 #include "vtkNURBSCADReader.h"

@@ -40,8 +40,8 @@ TEST(RayModel, FarAwayAndOffTheOrigin)
 namespace
 {
 
-/// Adds the face z = 0 over [x0, x1] x [0, 1] as a part of the plane [-1, 3] x [-1, 2] to `builder`;
-/// the sides x = x0 and x = x1 name the edges given.
+/// Adds the face z = 0 over [x0, x1] x [0, 1] as a part of the plane [-1, 3] x [-1, 2] to
+/// `builder`; the sides x = x0 and x = x1 name the edges given.
 void AddTrimmedSquare(
   ModelBuilder& builder, double x0, double x1, std::int64_t edge0, std::int64_t edge1)
 {

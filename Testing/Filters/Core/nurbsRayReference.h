@@ -12,7 +12,19 @@
 namespace reference
 {
 
-using namespace nurbs;
+using nurbs::BezierPatch;
+using nurbs::Box3;
+using nurbs::Face;
+using nurbs::Interval;
+using nurbs::Model;
+using nurbs::Ray;
+using nurbs::RayCaster;
+using nurbs::RayHit;
+using nurbs::Surface;
+using nurbs::SurfaceDerivatives;
+using nurbs::SurfaceView;
+using nurbs::Vec3;
+using nurbs::Vec4;
 
 constexpr double Pi = 3.14159265358979323846;
 
@@ -185,8 +197,8 @@ inline std::vector<Surface> Cube()
   return sides;
 }
 
-/// Intersections by plain means: patches whose box the ray meets are halved until they are small, and
-/// Newton's method for S(u, v) = o + t d starts from the middle of each.
+/// Intersections by plain means: patches whose box the ray meets are halved until they are small,
+/// and Newton's method for S(u, v) = o + t d starts from the middle of each.
 class PlainSearch
 {
 public:
