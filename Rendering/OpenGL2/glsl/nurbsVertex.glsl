@@ -18,7 +18,8 @@ uniform float nurbsMargin;    // pixels by which triangles may be off the surfac
 vec4 vertexMC;
 vec3 normalMC;
 flat out int nurbsTileIndex;
-out vec2 nurbsT; // parameters in the patch's spans
+out vec2 nurbsT;        // parameters in the patch's spans
+out vec3 nurbsNormalMC; // outwards, interpolated
 
 #ifdef NURBS_SPREAD
 
@@ -134,6 +135,7 @@ void nurbsFetchVertex()
     normalMC = -normalMC;
     k.x = cells.x - k.x;
   }
+  nurbsNormalMC = normalMC;
   vec3 high = texelFetch(nurbsOrigins, 2 * tile.surface).xyz - nurbsShiftHigh;
   vec3 low = texelFetch(nurbsOrigins, 2 * tile.surface + 1).xyz - nurbsShiftLow;
   vertexMC = vec4(high + (low + local), 1.0);
