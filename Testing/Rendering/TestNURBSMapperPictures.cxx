@@ -120,7 +120,6 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
       const bool same = faces[k] == rays[k].Face;
       const bool isOther = faces[k] >= 0 && rays[k].Face >= 0 && !same;
       result.Border += border;
-      if (getenv("DBG") && (faces[k] < 0) != (rays[k].Face < 0)) printf("cov %d %d pic %d ray %d\n", x, y, faces[k], rays[k].Face);
       result.Covered += (faces[k] < 0) != (rays[k].Face < 0);
       result.Faces += isOther;
       result.FarFaces += isOther && !border;
@@ -250,10 +249,11 @@ TEST_P(Pictures, AreThoseOfTheExactSurface)
       this->GetParam().Name, zoom, d.Border, d.Covered, d.Faces, d.FarFaces, d.Off,
       static_cast<long long>(scene.Mapper->GetNumberOfTriangles()));
     vtkTestImage::Write(vtkTestImage::Take(scene.RenderWindow), FileName(this->GetParam(), zoom));
-    // One pixel of 1000 at borders, and two more where rays just touch. Enlarged 1000 times, single
-    // precision knows a border to some hundredths of a pixel.
-    EXPECT_LE(d.Covered, (zoom > 1.0 ? 0.02 : 0.001) * d.Border + 2);
-    EXPECT_LE(d.FarFaces, 0.001 * Size * Size * (zoom > 1.0 ? 0.02 : 0.001) + 1);
+    // One pixel of 1000 at borders, and a few where outlines, trims or tolerances meet. Enlarged 1000
+    // times, single precision knows a border to some hundredths of a pixel.
+    EXPECT_LE(d.Covered, (zoom > 1.0 ? 0.02 : 0.001) * d.Border + 4);
+    // Faces that overlap within their edges' tolerance may be told apart otherwise when enlarged.
+    EXPECT_LE(d.FarFaces, zoom > 1.0 ? 20 : 0);
     EXPECT_LE(d.Off, scene.Mapper->GetPixelError());
   }
 }
