@@ -13,6 +13,7 @@
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNURBSContextWatch.h"
 #include "vtkNURBSDrawnModel.h"
 #include "vtkNURBSFaceLooks.h"
 #include "vtkNURBSGridIndices.h"
@@ -34,7 +35,6 @@
 #include "vtkShaderProgram.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkWeakPointer.h"
 #include "vtk_glew.h"
 
 #include "nurbsExact.h"
@@ -72,7 +72,7 @@ double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
 struct vtkNURBSMapper::Internals
 {
   vtkNURBSDrawnModel Model;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That the objects on the device belong to.
+  vtkNew<vtkNURBSContextWatch> Watch; ///< Of the window that the objects on the device belong to.
   bool ModelIsSent = false;
   std::vector<int> MovedSinceSent;
   vtkMTimeType ModelVersion = 0; ///< Rises with every change of the model.
@@ -113,11 +113,14 @@ struct vtkNURBSMapper::Internals
 
 vtkNURBSMapper::vtkNURBSMapper()
   : Content(new Internals)
-{}
+{
+  this->Content->Watch->OnRelease = [this](vtkOpenGLRenderWindow* window)
+  { this->DeleteObjects(window); };
+}
 
 vtkNURBSMapper::~vtkNURBSMapper()
 {
-  this->ReleaseGraphicsResources(nullptr);
+  this->Content->Watch->Release();
 }
 
 void vtkNURBSMapper::SetCompositeDataDisplayAttributes(
@@ -283,12 +286,7 @@ void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   {
     return;
   }
-  auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-  if (this->Content->Window != window)
-  {
-    this->ReleaseGraphicsResources(this->Content->Window);
-    this->Content->Window = window;
-  }
+  this->Content->Watch->Watch(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()));
   this->CurrentInput = this->Content->StandIn;
   this->InvokeEvent(vtkCommand::StartEvent, nullptr);
   if (!this->Static)
@@ -588,34 +586,30 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-// Everything that was made in the window's context, ours and what we use of the superclass. If that
-// window is gone, so are the objects, and only their names are to be forgotten.
+// Everything is deleted in the context that it was made in.
 void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
+  this->Content->Watch->Release();
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+// With the window's context current: deletes what was made in it, ours and what we use of the
+// superclass.
+void vtkNURBSMapper::DeleteObjects(vtkOpenGLRenderWindow* window)
+{
   Internals& c = *this->Content;
-  vtkOpenGLRenderWindow* owner = c.Window;
-  if (owner)
-  {
-    owner->PushContext();
-    this->VBOs->ReleaseGraphicsResources(owner);
-    this->Primitives[PrimitiveTris].ReleaseGraphicsResources(owner);
-  }
-  c.Textures.Release(owner);
-  c.Indices.Release(owner != nullptr);
+  this->VBOs->ReleaseGraphicsResources(window);
+  this->Primitives[PrimitiveTris].ReleaseGraphicsResources(window);
+  c.Textures.Release(window);
+  c.Indices.Release();
   for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds })
   {
-    buffer->Release(owner != nullptr);
+    buffer->Release();
   }
-  if (owner)
-  {
-    owner->PopContext();
-  }
-  c.Window = nullptr;
   c.ModelIsSent = false;
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;
-  this->Superclass::ReleaseGraphicsResources(window);
 }
 
 bool vtkNURBSMapper::HasOpaqueGeometry()

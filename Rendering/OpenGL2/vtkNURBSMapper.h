@@ -39,6 +39,7 @@
 
 class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
+class vtkOpenGLRenderWindow;
 
 class VTKNURBSRENDERINGOPENGL2_EXPORT vtkNURBSMapper : public vtkOpenGLPolyDataMapper
 {
@@ -143,6 +144,7 @@ private:
   bool UpdateTextures(vtkRenderer* renderer);
   bool DrawsExactly(vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
+  void DeleteObjects(vtkOpenGLRenderWindow* window);
 
   struct Internals;
   std::unique_ptr<Internals> Content;

@@ -402,14 +402,11 @@ void vtkNURBSTileTextures::Release(vtkOpenGLRenderWindow* window)
   }
   this->RowBuffer->ReleaseGraphicsResources(window);
   this->AtlasBuffer->ReleaseGraphicsResources(window);
-  if (window)
-  {
-    this->NoAttributes->ReleaseGraphicsResources();
-  }
+  this->NoAttributes->ReleaseGraphicsResources();
   for (vtkNURBSBufferTexture* buffer : { &this->Points, &this->Knots, &this->Surfaces,
          &this->Origins, &this->Tiles, &this->Jobs })
   {
-    buffer->Release(window != nullptr);
+    buffer->Release();
   }
   this->Atlas.Resize(0, 0);
 }
