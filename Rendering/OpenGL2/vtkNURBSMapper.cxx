@@ -434,8 +434,8 @@ void vtkNURBSMapper::ReplaceShaderValues(
   substitute(fragment, "//VTK::PositionVC::Dec",
     defines + nurbsTile + (exact ? nurbsExact : "") + nurbsTrim + nurbsFragment +
       "//VTK::PositionVC::Dec");
-  substitute(fragment, "//VTK::UniformFlow::Impl",
-    "  nurbsBeginFragment();\n  //VTK::UniformFlow::Impl\n");
+  substitute(fragment, "//VTK::PositionVC::Impl",
+    "  nurbsBeginFragment();\n  //VTK::PositionVC::Impl\n");
   // Before depth peeling, which looks at the depth of what stays.
   substitute(fragment, "//VTK::Depth::Impl",
     "  if (!nurbsIsInside()) { discard; }\n  //VTK::Depth::Impl\n");
@@ -458,17 +458,17 @@ void vtkNURBSMapper::ReplaceShaderValues(
 
   if (exact)
   {
-    // The surface's own normal, side and depth, instead of the triangles'.
+    // The surface's own point, normal, side and depth, instead of the triangles'.
     fragment = shaders[vtkShader::Fragment]->GetSource();
     substitute(fragment, "//VTK::Depth::Impl", "gl_FragDepth = gl_FragCoord.z;");
     substitute(fragment, "gl_FrontFacing", "nurbsFront");
     substitute(fragment, "gl_FragCoord.z", "nurbsDepth");
-    substitute(fragment, "vec3 normalVCVSOutput = normalize(normalVCVSOutput);",
-      "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
-    substitute(fragment, "  nurbsBeginFragment();\n",
-      "  nurbsBeginFragment();\n"
-      "  vec3 nurbsExactNormal = nurbsNormal(inverse(normalMatrix) * normalVCVSOutput);\n"
-      "  bool nurbsFront = nurbsSeesFront(nurbsExactNormal);\n");
+    substitute(fragment, "normalize(normalVCVSOutput)", "normalize(normalMatrix * nurbsNormal)");
+    substitute(fragment, "in vec4 vertexVCVSOutput;", "uniform mat4 MCVCMatrix;");
+    substitute(fragment, "vertexVCVSOutput", "MCVCMatrix * nurbsVertex");
+    substitute(fragment, "in float clipDistancesVSOutput[6];", "uniform vec4 clipPlanes[6];");
+    substitute(
+      fragment, "clipDistancesVSOutput[planeNum]", "dot(clipPlanes[planeNum], nurbsVertex)");
     shaders[vtkShader::Fragment]->SetSource(fragment);
   }
 }

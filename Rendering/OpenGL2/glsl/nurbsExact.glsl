@@ -102,6 +102,7 @@ nurbsJet nurbsEvaluate(nurbsTileInfo tile, vec2 t)
 struct nurbsRay
 {
   vec4 x, y, z, w;
+  vec3 origin; // of the surface, in vertexMC's coordinates
 };
 
 nurbsRay nurbsGetRay(int surface)
@@ -113,12 +114,12 @@ nurbsRay nurbsGetRay(int surface)
   ray.y = 0.5 * nurbsViewport.w * (m[1] - ndc.y * m[3]);
   ray.z = m[2];
   ray.w = m[3];
-  vec3 origin = (texelFetch(nurbsOrigins, 2 * surface).xyz - nurbsShiftHigh) +
+  ray.origin = (texelFetch(nurbsOrigins, 2 * surface).xyz - nurbsShiftHigh) +
     (texelFetch(nurbsOrigins, 2 * surface + 1).xyz - nurbsShiftLow);
-  ray.x.w += dot(ray.x.xyz, origin);
-  ray.y.w += dot(ray.y.xyz, origin);
-  ray.z.w += dot(ray.z.xyz, origin);
-  ray.w.w += dot(ray.w.xyz, origin);
+  ray.x.w += dot(ray.x.xyz, ray.origin);
+  ray.y.w += dot(ray.y.xyz, ray.origin);
+  ray.z.w += dot(ray.z.xyz, ray.origin);
+  ray.w.w += dot(ray.w.xyz, ray.origin);
   return ray;
 }
 

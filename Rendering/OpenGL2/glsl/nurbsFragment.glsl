@@ -12,11 +12,31 @@ bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 #ifdef NURBS_EXACT
 uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
-nurbsJet nurbsHere;
+in vec3 nurbsGridNormal;
 mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
 float nurbsDepth;   // of the surface, 0 to 1
-vec3 nurbsSight;    // direction away from the eye
 float nurbsGap;     // pixels that this face may be off its neighbours at an edge
+vec4 nurbsVertex;   // the surface's point, as vertexMC
+vec3 nurbsNormal;   // unit length, outwards, in vertexMC's axes
+bool nurbsFront;    // whether the outside is seen
+
+vec3 nurbsProject(nurbsJet jet, vec4 derivative)
+{
+  return (derivative.xyz - derivative.w * jet.h.xyz / jet.h.w) / jet.h.w;
+}
+
+void nurbsSetPoint(nurbsRay ray, nurbsJet jet)
+{
+  nurbsDepth = 0.5 + 0.5 * dot(ray.z, jet.h) / dot(ray.w, jet.h);
+  nurbsVertex = vec4(jet.h.xyz / jet.h.w + ray.origin, 1.0);
+  vec3 normal = cross(nurbsProject(jet, jet.hu), nurbsProject(jet, jet.hv));
+  // What the triangles say where it vanishes.
+  nurbsNormal = normal == vec3(0.0)        ? normalize(nurbsGridNormal)
+    : nurbsFaceTile.reversed ? -normalize(normal)
+                             : normalize(normal);
+  vec3 sight = cross(ray.x.xyz, ray.y.xyz);
+  nurbsFront = dot(nurbsNormal, sight) * dot(sight, nurbsDepthAxis) < 0.0;
+}
 #endif
 
 // Sets the variables above; called in uniform control flow.
@@ -31,10 +51,9 @@ void nurbsBeginFragment()
   mat2 pixels; // change on screen with t
   float perUnit, noise;
   nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface);
-  nurbsIsSurface = nurbsHit(ray, nurbsFaceTile, t, nurbsHere, pixels, perUnit, noise);
-  nurbsDepth = 0.5 + 0.5 * dot(ray.z, nurbsHere.h) / dot(ray.w, nurbsHere.h);
-  nurbsSight = cross(ray.x.xyz, ray.y.xyz);
-  nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
+  nurbsJet jet;
+  nurbsIsSurface = nurbsHit(ray, nurbsFaceTile, t, jet, pixels, perUnit, noise);
+  nurbsSetPoint(ray, jet);
   float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
   nurbsGap = noise + min(tolerance * perUnit, 0.5);
   mat2 perPixelT = inverse(pixels);
@@ -76,34 +95,6 @@ bool nurbsIsInside()
   return false;
 #endif
 }
-
-#ifdef NURBS_EXACT
-
-vec3 nurbsProject(vec4 derivative)
-{
-  vec3 point = nurbsHere.h.xyz / nurbsHere.h.w;
-  return (derivative.xyz - derivative.w * point) / nurbsHere.h.w;
-}
-
-// The exact unit normal, or what the triangles say where it vanishes.
-vec3 nurbsNormal(vec3 interpolated)
-{
-  vec3 normal = cross(nurbsProject(nurbsHere.hu), nurbsProject(nurbsHere.hv));
-  float size = length(normal);
-  if (size == 0.0)
-  {
-    return interpolated;
-  }
-  return (nurbsFaceTile.reversed ? -normal : normal) / size;
-}
-
-// Whether the outside is seen.
-bool nurbsSeesFront(vec3 normal)
-{
-  return dot(normal, nurbsSight) < 0.0;
-}
-
-#endif
 
 ivec2 nurbsIds()
 {

@@ -12,6 +12,7 @@ uniform int nurbsFirstTile;
 uniform mat4 nurbsToClip;     // from vertexMC
 uniform vec4 nurbsViewport;   // x, y, width, height in pixels
 uniform float nurbsMargin;    // pixels by which triangles have to reach over the surface's outline
+out vec3 nurbsGridNormal;
 #endif
 
 vec4 vertexMC;
@@ -108,6 +109,7 @@ void nurbsFetchVertex()
   nurbsT = vec2(nurbsParameter(tile.first.x + k.x, tile.level.x),
     nurbsParameter(tile.first.y + k.y, tile.level.y));
 #ifdef NURBS_EXACT
+  nurbsGridNormal = normalMC;
   nurbsSpread(tile, k, cells);
 #endif
 }
