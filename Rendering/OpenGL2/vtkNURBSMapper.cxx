@@ -541,6 +541,7 @@ void vtkNURBSMapper::SetMapperShaderParameters(
     const float pixels[4] = { float(viewport[0]), float(viewport[1]), float(viewport[2]),
       float(viewport[3]) };
     program->SetUniform4f("nurbsViewport", pixels);
+    program->SetUniformi("nurbsOnce", actor->IsRenderingTranslucentPolygonalGeometry() ? 1 : 0);
     program->SetUniformf("nurbsMargin", static_cast<float>(0.1 + this->PixelError));
   }
 }

@@ -11,6 +11,7 @@ vec2 nurbsST; // place in the face's domain, 0 to 1
 bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 #ifdef NURBS_EXACT
 uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
+uniform int nurbsOnce;       // 1: no point of the surface may be drawn twice, as it is translucent
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 in vec3 nurbsGridNormal;
 mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
@@ -60,14 +61,20 @@ void nurbsBeginFragment()
   for (int dir = 0; dir < 2; ++dir)
   {
     // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this
-    // patch that the pixel sees. Beyond other sides the next patch goes on as this one does.
+    // patch that the pixel sees. Beyond other sides the next tile goes on as this one does, and either
+    // may draw the pixel; of a translucent surface only the one that has the point.
     int sides = int(texelFetch(nurbsKnots, block[dir] + 3).r);
     float perPixel = length(vec2(perPixelT[0][dir], perPixelT[1][dir]));
     float open = perPixel * nurbsGap;
     float smoothly = min(2.0 * perPixel * nurbsMargin, 0.25);
-    float low = (sides & 1) != 0 ? open : smoothly;
-    float high = (sides & 2) != 0 ? open : smoothly;
-    nurbsIsSurface = nurbsIsSurface && t[dir] >= -low && t[dir] <= 1.0 + high;
+    float inner = perPixel * (noise + 1e-4);
+    vec2 range = nurbsRange(nurbsFaceTile, dir);
+    bool once = nurbsOnce == 1;
+    float low = once && range.x > 0.0 ? range.x - inner
+      : (sides & 1) != 0 ? -open : once ? -inner : -smoothly;
+    float high = once && range.y < 1.0 ? range.y + inner
+      : 1.0 + ((sides & 2) != 0 ? open : once ? inner : smoothly);
+    nurbsIsSurface = nurbsIsSurface && t[dir] >= low && t[dir] <= high;
   }
   nurbsPerPixel = mat2(perPixelT[0] * size, perPixelT[1] * size);
 #endif

@@ -12,6 +12,7 @@ uniform int nurbsFirstTile;
 uniform mat4 nurbsToClip;     // from vertexMC
 uniform vec4 nurbsViewport;   // x, y, width, height in pixels
 uniform float nurbsMargin;    // pixels by which triangles have to reach over the surface's outline
+uniform int nurbsOnce;        // 1: every tile draws its own points only
 out vec3 nurbsGridNormal;
 #endif
 
@@ -68,14 +69,17 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells)
   for (int dir = 0; dir < 2; ++dir)
   {
     // What has moved along the normal reaches over every border of the tile, lest it bare something.
-    int sides = moved ? 3 : int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
-    int at = moved ? k[dir] : tile.first[dir] + k[dir];
-    int end = moved ? cells[dir] : 1 << tile.level[dir];
+    bool all = moved || nurbsOnce == 1;
+    int sides = all ? 3 : int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
+    int at = all ? k[dir] : tile.first[dir] + k[dir];
+    int end = all ? cells[dir] : 1 << tile.level[dir];
     float outwards = at == 0 && (sides & 1) != 0 ? -1.0 : at == end && (sides & 2) != 0 ? 1.0 : 0.0;
     float reach = moved ? 2.0 * nurbsMargin : nurbsMargin;
     // Pixels of a cell across the border, which a step outwards need not be on screen.
     float pixels = area / max(length(screen[1 - dir]), 1e-6 * length(screen[dir]));
-    if (outwards != 0.0 && length(screen[dir]) > 0.0)
+    // Beyond a pole, triangles would cover each other.
+    bool pole = nurbsOnce == 1 && length(screen[1 - dir]) <= 1e-4 * length(screen[dir]);
+    if (outwards != 0.0 && length(screen[dir]) > 0.0 && !pole)
     {
       float cellsOut = outwards * min(reach / max(pixels, 1e-30), 64.0);
       shift += cellsOut * step[dir];
