@@ -542,6 +542,9 @@ void vtkNURBSMapper::SetMapperShaderParameters(
       float(viewport[3]) };
     program->SetUniform4f("nurbsViewport", pixels);
     program->SetUniformi("nurbsOnce", actor->IsRenderingTranslucentPolygonalGeometry() ? 1 : 0);
+    vtkProperty* property = actor->GetProperty();
+    program->SetUniformi("nurbsCulled",
+      property->GetBackfaceCulling() ? 1 : property->GetFrontfaceCulling() ? 2 : 0);
     program->SetUniformf("nurbsMargin", static_cast<float>(0.1 + this->PixelError));
   }
 }
@@ -564,6 +567,11 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     if (representation == VTK_WIREFRAME)
     {
       window->GetState()->vtkglLineWidth(actor->GetProperty()->GetLineWidth());
+    }
+    vtkOpenGLState::ScopedglEnableDisable culling(window->GetState(), GL_CULL_FACE);
+    if (this->DrawsExactly(actor))
+    {
+      window->GetState()->vtkglDisable(GL_CULL_FACE); // fragments know their side better
     }
     helper.VAO->Bind(); // a new program has released it
     c.Indices.Bind();

@@ -13,6 +13,7 @@ bool nurbsIsSurface = true; // whether the pixel sees the surface at all
 uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform int nurbsOnce;       // 1: no point of the surface may be drawn twice, as it is translucent
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
+uniform int nurbsCulled;     // 1: the inside is not drawn, 2: the outside, 0: both are
 in vec3 nurbsGridNormal;
 mat2 nurbsPerPixel; // change of nurbsST from one pixel to the next in x and y
 float nurbsDepth;   // of the surface, 0 to 1
@@ -55,6 +56,7 @@ void nurbsBeginFragment()
   nurbsJet jet;
   nurbsIsSurface = nurbsHit(ray, nurbsFaceTile, t, jet, pixels, perUnit, noise);
   nurbsSetPoint(ray, jet);
+  nurbsIsSurface = nurbsIsSurface && nurbsCulled != (nurbsFront ? 2 : 1);
   float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
   nurbsGap = noise + min(tolerance * perUnit, 0.5);
   mat2 perPixelT = inverse(pixels);
