@@ -51,8 +51,10 @@ Stamps PointsOf(vtkUnstructuredGrid* grid)
   return stamps;
 }
 
-std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input)
+// The models of the input; otherData: whether it has data sets that are none.
+std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input, bool& otherData)
 {
+  otherData = false;
   std::vector<vtkNURBSDrawnModel::Leaf> leaves;
   const auto add = [&](vtkDataObject* object, unsigned int index) {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(object);
@@ -64,6 +66,10 @@ std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input)
       leaf.Structure = StructureOf(grid);
       leaf.Points = PointsOf(grid);
       leaves.push_back(std::move(leaf));
+    }
+    else
+    {
+      otherData = otherData || (object && object->GetNumberOfElements(vtkDataObject::POINT) > 0);
     }
   };
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
@@ -111,7 +117,7 @@ nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
 
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
 {
-  std::vector<Leaf> leaves = LeavesOf(input);
+  std::vector<Leaf> leaves = LeavesOf(input, this->OtherData);
   this->Moved.clear();
   this->Warnings.clear();
   bool sameStructure = leaves.size() == this->Leaves.size(), samePoints = true;
@@ -139,6 +145,12 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
       ? 0
       : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
   }
+  int faces = 0;
+  for (const Leaf& leaf : leaves)
+  {
+    faces += static_cast<int>(leaf.Model().Faces.size());
+  }
+  sameStructure = sameStructure && faces == this->Table.Size();
   // A face that has lost its surface, or has one now, changes more than points.
   for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
   {
@@ -151,7 +163,15 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
   this->Leaves = std::move(leaves);
   if (!sameStructure)
   {
-    this->Rebuild();
+    try
+    {
+      this->Rebuild();
+    }
+    catch (const nurbs::Error&)
+    {
+      this->Table = nurbs::SurfaceTable();
+      throw;
+    }
     return Change::Surfaces;
   }
   this->Move();
@@ -233,12 +253,15 @@ void vtkNURBSDrawnModel::Move()
   }
 }
 
-nurbs::Box3 vtkNURBSDrawnModel::GetBounds() const
+nurbs::Box3 vtkNURBSDrawnModel::GetBounds(const std::function<bool(int)>& isHidden) const
 {
   nurbs::Box3 box;
   for (int i = 0; i < this->Table.Size(); ++i)
   {
-    box.extend(this->Table[i].Bounds);
+    if (!isHidden(i))
+    {
+      box.extend(this->Table[i].Bounds);
+    }
   }
   return box;
 }

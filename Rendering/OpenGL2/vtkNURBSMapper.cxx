@@ -168,6 +168,16 @@ vtkIdType vtkNURBSMapper::GetNumberOfEvaluatedVertices()
   return static_cast<vtkIdType>(this->Content->Textures.GetEvaluatedVertices());
 }
 
+// An error that holds for as long as the model does not change.
+void vtkNURBSMapper::TellOnce(const std::string& error)
+{
+  if (this->Content->LastError != error)
+  {
+    vtkErrorMacro("The model can't be drawn: " << error);
+    this->Content->LastError = error;
+  }
+}
+
 // Takes the input as it is. False if there is nothing to draw.
 bool vtkNURBSMapper::UpdateModel()
 {
@@ -177,6 +187,7 @@ bool vtkNURBSMapper::UpdateModel()
   {
     return false;
   }
+  const int degree = c.Model.GetMaxDegree();
   try
   {
     const vtkNURBSDrawnModel::Change change = c.Model.Update(input);
@@ -187,10 +198,7 @@ bool vtkNURBSMapper::UpdateModel()
     if (change == vtkNURBSDrawnModel::Change::Surfaces)
     {
       c.ModelIsSent = false;
-      if (c.Model.GetLeaves().empty())
-      {
-        vtkErrorMacro("The input has no NURBS model: it lacks the arrays of vtkNURBSModel.");
-      }
+      c.LastError.clear();
       if (!c.Model.GetWarnings().empty())
       {
         vtkWarningMacro("Faces that can't be drawn:\n" << c.Model.GetWarnings());
@@ -201,10 +209,26 @@ bool vtkNURBSMapper::UpdateModel()
   }
   catch (const nurbs::Error& error)
   {
-    vtkErrorMacro("The model can't be drawn: " << error.what());
-    return false;
+    this->TellOnce(error.what());
+  }
+  if (c.Model.HasOtherData())
+  {
+    this->TellOnce("the input has no NURBS model, it lacks the arrays of vtkNURBSModel");
+  }
+  if (c.Model.GetMaxDegree() != degree)
+  {
+    this->Modified(); // the shader knows it
   }
   return c.Model.GetTable().Size() > 0;
+}
+
+void vtkNURBSMapper::UpdateLooks()
+{
+  Internals& c = *this->Content;
+  if (c.Looks.Update(this, c.Model, this->Attributes))
+  {
+    c.LooksAreSent = false;
+  }
 }
 
 void vtkNURBSMapper::ComputeBounds()
@@ -212,7 +236,9 @@ void vtkNURBSMapper::ComputeBounds()
   vtkMath::UninitializeBounds(this->Bounds);
   if (this->UpdateModel())
   {
-    const nurbs::Box3 box = this->Content->Model.GetBounds();
+    this->UpdateLooks();
+    const nurbs::Box3 box = this->Content->Model.GetBounds(
+      [this](int surface) { return this->Content->Looks.IsHidden(surface); });
     for (int k = 0; k < 3 && !box.isEmpty(); ++k)
     {
       this->Bounds[2 * k] = box.min()[k];
@@ -266,14 +292,9 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
   }
   if (!error.empty())
   {
-    if (c.LastError != error)
-    {
-      vtkErrorMacro("The model can't be drawn: " << error);
-      c.LastError = error;
-    }
+    this->TellOnce(error);
     return false;
   }
-  c.LastError.clear();
   c.MovedSinceSent.clear();
   c.LooksAreSent = false;
   c.ModelIsSent = true;
@@ -335,7 +356,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& c = *this->Content;
   auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-  if (c.Looks.Update(this, c.Model, this->Attributes) || !c.LooksAreSent)
+  this->UpdateLooks();
+  if (!c.LooksAreSent)
   {
     c.LooksAreSent = true;
     c.LookTexture.Upload(window, c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
@@ -633,12 +655,8 @@ bool vtkNURBSMapper::HasTranslucentPolygonalGeometry()
   {
     return false;
   }
-  Internals& c = *this->Content;
-  if (c.Looks.Update(this, c.Model, this->Attributes))
-  {
-    c.LooksAreSent = false;
-  }
-  return c.Looks.HasTranslucent();
+  this->UpdateLooks();
+  return this->Content->Looks.HasTranslucent();
 }
 
 void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)

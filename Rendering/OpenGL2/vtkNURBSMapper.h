@@ -140,7 +140,9 @@ private:
   vtkNURBSMapper(const vtkNURBSMapper&) = delete;
   void operator=(const vtkNURBSMapper&) = delete;
 
+  void TellOnce(const std::string& error);
   bool UpdateModel();
+  void UpdateLooks();
   bool UpdateTextures(vtkRenderer* renderer);
   bool DrawsExactly(vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
