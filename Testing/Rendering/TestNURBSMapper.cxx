@@ -502,7 +502,7 @@ TEST_F(Messages, AFaceWithAnErrorIsNamedAndTheRestDrawn)
   vtkIdType count;
   bad->GetCellPoints(7, count, ids);
   bad->GetPoints()->SetPoint(ids[5], vtkMath::Nan(), 0.0, 0.0);
-  vtkMapperScene scene(bad);
+  vtkMapperScene scene(good);
   vtkNew<vtkNURBSMapper> mapper;
   vtkNew<MessageKeeper> warnings;
   mapper->AddObserver(vtkCommand::WarningEvent, warnings);
