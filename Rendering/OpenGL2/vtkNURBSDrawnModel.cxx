@@ -258,7 +258,7 @@ nurbs::Box3 vtkNURBSDrawnModel::GetBounds(const std::function<bool(int)>& isHidd
   nurbs::Box3 box;
   for (int i = 0; i < this->Table.Size(); ++i)
   {
-    if (!isHidden(i))
+    if (!isHidden || !isHidden(i))
     {
       box.extend(this->Table[i].Bounds);
     }

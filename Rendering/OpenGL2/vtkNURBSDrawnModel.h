@@ -57,8 +57,8 @@ public:
   const std::string& GetWarnings() const { return this->Warnings; }
   /// True if the input has data, but none of it is a model.
   bool HasOtherData() const { return this->Leaves.empty() && this->OtherData; }
-  /// Around the surfaces that are not hidden.
-  nurbs::Box3 GetBounds(const std::function<bool(int)>& isHidden) const;
+  /// Around the surfaces, or those that are not hidden.
+  nurbs::Box3 GetBounds(const std::function<bool(int)>& isHidden = nullptr) const;
   /// The highest degree of a surface, in either direction.
   int GetMaxDegree() const { return this->MaxDegree; }
 
