@@ -141,9 +141,8 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
     leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
       ? this->Leaves[i].View
       : vtkNURBSModel::View(leaf.Grid);
-    leaf.First = i == 0
-      ? 0
-      : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
+    leaf.First =
+      i == 0 ? 0 : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
   }
   int faces = 0;
   for (const Leaf& leaf : leaves)
@@ -203,9 +202,9 @@ void vtkNURBSDrawnModel::Rebuild()
     this->Warnings += errors.empty() || this->Warnings.empty() ? errors : "\n" + errors;
     this->AddTrims(nurbs::TrimIndex(model, vtkNURBSParallelFor));
   }
-  vtkNURBSParallelFor(0, this->Table.Size(),
-    [this](std::int64_t first, std::int64_t last)
-    { this->Table.Fill(static_cast<int>(first), static_cast<int>(last)); });
+  vtkNURBSParallelFor(0, this->Table.Size(), [this](std::int64_t first, std::int64_t last) {
+    this->Table.Fill(static_cast<int>(first), static_cast<int>(last));
+  });
 }
 
 void vtkNURBSDrawnModel::AddTrims(const nurbs::TrimIndex& index)
@@ -231,9 +230,8 @@ void vtkNURBSDrawnModel::Move()
   for (const Leaf& leaf : this->Leaves)
   {
     const nurbs::Model& model = leaf.Model();
-    vtkNURBSParallelFor(0, static_cast<std::int64_t>(model.Faces.size()),
-      [&](std::int64_t first, std::int64_t last)
-      {
+    vtkNURBSParallelFor(
+      0, static_cast<std::int64_t>(model.Faces.size()), [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t f = first; f < last; ++f)
         {
           const int index = leaf.First + static_cast<int>(f);

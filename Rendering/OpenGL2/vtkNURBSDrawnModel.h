@@ -29,7 +29,7 @@ public:
   enum class Change
   {
     None,
-    Points, ///< Control points or weights of GetMoved().
+    Points,  ///< Control points or weights of GetMoved().
     Surfaces ///< Anything: the tables are new.
   };
 

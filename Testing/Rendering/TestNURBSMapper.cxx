@@ -4,6 +4,7 @@
 #include "../testMessageKeeper.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkCellPicker.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkHardwareSelector.h"
@@ -12,8 +13,9 @@
 #include "vtkMapperScene.h"
 #include "vtkMath.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
+#include "vtkNURBSCellLocator.h"
 #include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -23,7 +25,6 @@
 #include "vtkSelectionNode.h"
 #include "vtkSphereSource.h"
 #include "vtkTestImage.h"
-
 
 #include <gtest/gtest.h>
 
@@ -74,10 +75,7 @@ Grid Cylinder()
 struct Hit
 {
   int Block = -1, Cell = -1;
-  bool operator<(const Hit& b) const
-  {
-    return Block != b.Block ? Block < b.Block : Cell < b.Cell;
-  }
+  bool operator<(const Hit& b) const { return Block != b.Block ? Block < b.Block : Cell < b.Cell; }
 };
 
 // Pixels of each block and cell that the selector tells.
@@ -289,7 +287,49 @@ INSTANTIATE_TEST_SUITE_P(Cells, Selections,
   testing::Values(Picked{ "Teapot", [] { return Shape(vtkNURBSShapeSource::TEAPOT); } },
     Picked{ "Cone", [] { return Shape(vtkNURBSShapeSource::CONE); } },
     Picked{ "CarBody", [] { return Shape(vtkNURBSShapeSource::CAR_BODY); } },
-    Picked{ "Screw", [] { return vtkMapperTest::CADModel("step/screw.step"); } }));
+    Picked{ "Screw", [] { return vtkMapperTest::CADModel("step/screw.step"); } },
+    Picked{ "LinkRods", [] { return vtkMapperTest::CADModel("step/linkrods.step"); } }));
+
+// vtkCellPicker by a ray on the CPU and vtkHardwareSelector by pixels tell the same cells.
+TEST(Selection, IsThatOfThePicker)
+{
+  Grid model = Shape(vtkNURBSShapeSource::TEAPOT);
+  vtkMapperScene scene(model);
+  scene.Actor->SetPosition(0.3, 0.2, -0.1);
+  scene.Renderer->ResetCamera();
+  scene.Picture();
+  const std::vector<int> cells = scene.SelectCells();
+  vtkNew<vtkNURBSCellLocator> locator;
+  locator->SetDataSet(model);
+  vtkNew<vtkCellPicker> picker;
+  picker->AddLocator(locator);
+  long picked = 0, wrong = 0;
+  for (int y = 2; y < Size - 2; y += 5)
+  {
+    for (int x = 2; x < Size - 2; x += 5)
+    {
+      const int k = x + y * Size;
+      bool inside = true;
+      for (const int n : { k - 1, k + 1, k - Size, k + Size })
+      {
+        inside = inside && cells[n] == cells[k];
+      }
+      if (inside)
+      {
+        const int hit = picker->Pick(x + 0.5, y + 0.5, 0.0, scene.Renderer);
+        picked += hit;
+        wrong += (hit ? static_cast<int>(picker->GetCellId()) : -1) != cells[k];
+        if (hit)
+        {
+          EXPECT_EQ(picker->GetMapper(), scene.Mapper.Get());
+          EXPECT_EQ(picker->GetDataSet(), model.Get());
+        }
+      }
+    }
+  }
+  EXPECT_GT(picked, 80);
+  EXPECT_EQ(wrong, 0);
+}
 
 // A selection of the whole window, as ParaView's rubber band makes it.
 TEST(Selection, HasANodeOfCells)
@@ -355,8 +395,8 @@ TEST_P(FarModels, LookTheSame)
   compare(byActor);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, FarModels,
-  testing::Values(vtkNURBSShapeSource::SPHERE, vtkNURBSShapeSource::TORUS));
+INSTANTIATE_TEST_SUITE_P(
+  Shapes, FarModels, testing::Values(vtkNURBSShapeSource::SPHERE, vtkNURBSShapeSource::TORUS));
 
 TEST(Bounds, AreThoseOfTheSurface)
 {

@@ -76,8 +76,8 @@ void AddArrays(vtkUnstructuredGrid* model)
     wind->InsertNextTuple3(f, -2.0 * static_cast<double>(f % 4), 3.0);
     orientation->InsertNextValue(f % 3 == 0 ? -1 : 1);
   }
-  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
-         height, paint, glaze, wind, orientation })
+  for (vtkDataArray* array :
+    std::initializer_list<vtkDataArray*>{ height, paint, glaze, wind, orientation })
   {
     model->GetCellData()->AddArray(array);
   }
@@ -113,8 +113,8 @@ void ExpectLikeTriangles(const Look& look)
   Picture ours = scene.Picture();
   Picture theirs = scene.PictureWith(triangles);
   const Difference d = Compare(ours, theirs);
-  std::printf("%s: mean difference %.3f, %ld of %ld pixels strange\n", look.Name, d.Mean, d.Strange,
-    d.Drawn);
+  std::printf(
+    "%s: mean difference %.3f, %ld of %ld pixels strange\n", look.Name, d.Mean, d.Strange, d.Drawn);
   const std::string path = std::string(NURBS_TEST_OUTPUT) + "/Look" + look.Name;
   vtkTestImage::Write(ours, path + ".png");
   vtkTestImage::Write(theirs, path + "Triangles.png");
@@ -188,7 +188,6 @@ void ShowBackFaces(vtkMapperScene& scene)
   scene.Actor->SetBackfaceProperty(back);
 }
 
-
 INSTANTIATE_TEST_SUITE_P(Lights, Looks,
   testing::Values(Look{ "Gouraud", vtkNURBSShapeSource::TEAPOT, [](vtkMapperScene&) {} },
     Look{ "Specular", vtkNURBSShapeSource::TORUS,
@@ -220,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, Looks,
     Look{ "BackFacesCulledCoarsely", vtkNURBSShapeSource::SPHERE,
       [](vtkMapperScene& scene) {
         scene.Actor->GetProperty()->BackfaceCullingOn();
-        scene.Mapper->SetPixelError(5.0);
+        scene.Mapper->SetPixelError(3.0);
       } },
     Look{ "TurnedFaces", PaintedTeapot, ShowBackFaces },
     Look{ "TurnedFacesAlone", PaintedTeapot, [](vtkMapperScene&) {} },
@@ -228,12 +227,11 @@ INSTANTIATE_TEST_SUITE_P(Lights, Looks,
       [](vtkMapperScene& scene) { scene.Actor->GetProperty()->FrontfaceCullingOn(); } },
     Look{ "Parallel", vtkNURBSShapeSource::TEAPOT,
       [](vtkMapperScene& scene) { scene.Renderer->GetActiveCamera()->ParallelProjectionOn(); } },
-    Look{ "Scaled", vtkNURBSShapeSource::TEAPOT,
-      [](vtkMapperScene& scene) {
-        scene.Actor->SetScale(1.0, 0.5, 2.0);
-        scene.Actor->RotateX(30.0);
-        scene.Renderer->ResetCamera();
-      } }));
+    Look{ "Scaled", vtkNURBSShapeSource::TEAPOT, [](vtkMapperScene& scene) {
+           scene.Actor->SetScale(1.0, 0.5, 2.0);
+           scene.Actor->RotateX(30.0);
+           scene.Renderer->ResetCamera();
+         } }));
 
 void AddPlanes(vtkMapper* mapper)
 {
@@ -246,8 +244,7 @@ void AddPlanes(vtkMapper* mapper)
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuts, Looks,
-  testing::Values(
-    Look{ "Clipped", vtkNURBSShapeSource::SPHERE, [](vtkMapperScene&) {}, AddPlanes },
+  testing::Values(Look{ "Clipped", vtkNURBSShapeSource::SPHERE, [](vtkMapperScene&) {}, AddPlanes },
     Look{ "ClippedMoved", vtkNURBSShapeSource::TEAPOT,
       [](vtkMapperScene& scene) {
         scene.Actor->SetPosition(-0.3, 0.2, 0.1);
@@ -373,8 +370,8 @@ INSTANTIATE_TEST_SUITE_P(Colors, Looks,
     Look{ "NoSuchArray", PaintedTeapot, [](vtkMapperScene&) {},
       [](vtkMapper* mapper) { ColorBy(mapper, "Depth"); } },
     Look{ "ColorsOfBackFaces", PaintedTeapot, ShowBackFaces, ColorByHeight },
-    Look{ "ColoredMetal", PaintedTeapot,
-      [](vtkMapperScene& scene) { UsePBR(scene, 0.7, 0.4); }, ColorByHeight },
+    Look{ "ColoredMetal", PaintedTeapot, [](vtkMapperScene& scene) { UsePBR(scene, 0.7, 0.4); },
+      ColorByHeight },
     Look{ "TranslucentTable", PaintedTeapot, PeelOpaqueActor, ColorTranslucently, 0.2, Outlines },
     Look{ "TranslucentPaint", PaintedTeapot, PeelOpaqueActor,
       [](vtkMapper* mapper) { ColorBy(mapper, "Glaze"); }, 0.2, Outlines }));
@@ -392,8 +389,7 @@ std::vector<char> Around(vtkImageData* picture, const vtkTestImage::Colour& back
       {
         for (int dx = -reach; dx <= reach; ++dx)
         {
-          result[x + y * width] |=
-            vtkTestImage::Pixel(picture, x + dx, y + dy) != background;
+          result[x + y * width] |= vtkTestImage::Pixel(picture, x + dx, y + dy) != background;
         }
       }
     }

@@ -200,7 +200,7 @@ TEST(Resources, AMapperOutlivesItsWindows)
   vtkNew<vtkNURBSMapper> mapper;
   mapper->SetInputData(Model(1));
   Picture first;
-  for (int i = 0; i < 50; ++i)
+  for (int i = 0; i < 15; ++i)
   {
     vtkMapperScene scene(Model(1), 40);
     Picture picture = scene.PictureWith(mapper); // and out of the actor, before the window goes

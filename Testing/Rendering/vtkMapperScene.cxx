@@ -18,8 +18,8 @@ namespace
 
 constexpr vtkTestImage::Colour Background = { 26, 51, 102 };
 
-void GLAPIENTRY KeepError(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text,
-  const void* errors)
+void GLAPIENTRY KeepError(
+  GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text, const void* errors)
 {
   if (type == GL_DEBUG_TYPE_ERROR)
   {

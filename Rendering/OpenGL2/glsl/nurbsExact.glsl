@@ -121,7 +121,7 @@ struct nurbsFound
 // From parameters near the hit to the hit. False if the ray passes the surface by.
 bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, vec2 start, out nurbsFound found)
 {
-  vec2 t = start;
+  vec2 t = clamp(start, 0.0, 1.0); // triangles reach over borders, where high degrees run away
   float radius = texelFetch(nurbsOrigins, 2 * tile.surface + 1).w;
   vec2 last = t;
   float side = 0.0; // on which side of the outline the search began
