@@ -8,7 +8,7 @@ void vtkNURBSFrameRate::Decide(double asked, double wanted, double seconds)
 {
   // An interactor asks for 0.0001 frames a second when nothing moves.
   constexpr double Still = 0.1;
-  constexpr double Most = 1.0 + 2.0; // at two levels triangles are off by 16 times as much
+  constexpr double Most = 1.0 + 1.5; // triangles are off by 8 times as much then
   const bool measured = this->Measuring;
   this->Measuring = wanted > 0.0 && asked > Still;
   if (!this->Measuring)

@@ -314,13 +314,13 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
       }
     }
     const nurbs::TrimTexels& trims = c.Model.GetTrims();
-    if (!c.Textures.SetTable(window, table, infos))
+    if (!c.Textures.SetTable(table, infos))
     {
       error = c.Textures.GetError();
     }
-    else if (!c.TrimPoints.Upload(window, trims.Points.data(), 4 * trims.Points.size()) ||
-      !c.TrimRecords.Upload(window, trims.Records.data(), 4 * trims.Records.size()) ||
-      !c.FaceIds.Upload(window, ids.data(), 4 * ids.size()))
+    else if (!c.TrimPoints.Upload(trims.Points.data(), 4 * trims.Points.size()) ||
+      !c.TrimRecords.Upload(trims.Records.data(), 4 * trims.Records.size()) ||
+      !c.FaceIds.Upload(ids.data(), 4 * ids.size()))
     {
       error = "the device can't hold this model's trimming curves";
     }
@@ -407,7 +407,7 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   if (!c.LooksAreSent)
   {
     c.LooksAreSent = true;
-    c.LookTexture.Upload(window, c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
+    c.LookTexture.Upload(c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
     c.TilesAreReady = false; // blocks may have been hidden or shown
   }
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -711,7 +711,7 @@ void vtkNURBSMapper::SetLookParameters(
         table->MapValue(range[0] + (range[1] - range[0]) * i / (Colors - 1));
       colors.insert(colors.end(), color, color + 4);
     }
-    c.LookColors.Upload(window, colors.data(), colors.size());
+    c.LookColors.Upload(colors.data(), colors.size());
     program->SetUniformi("nurbsLookTable", c.LookColors.Activate(window));
   }
   const auto set = [&](const char* name, int count, const float* values)

@@ -96,7 +96,7 @@ public:
    * camera moves (vtkRenderWindow::SetDesiredUpdateRate). Where the whole is too slow for it, pixels take
    * the triangles' points, then what was evaluated is drawn at coarser levels, without evaluating it
    * again and with all values between levels, so that nothing jumps. Default 15; 0: always the whole.
-   * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 2.
+   * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 1.5.
    */
   vtkSetClampMacro(InteractiveFrameRate, double, 0.0, 1000.0);
   vtkGetMacro(InteractiveFrameRate, double);

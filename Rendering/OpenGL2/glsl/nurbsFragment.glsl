@@ -4,10 +4,18 @@ uniform samplerBuffer nurbsFaceLooks;  // two texels a surface, see vtkNURBSFace
 uniform isamplerBuffer nurbsFaceIds;   // cell and block of a surface
 flat in int nurbsTileIndex;
 in vec2 nurbsT;
+in vec3 nurbsNormalMC;
 
 nurbsTileInfo nurbsFaceTile;
 vec2 nurbsStart; // of the patch in the face's domain, 0 to 1
 vec2 nurbsSize;
+
+void nurbsTakePatch()
+{
+  ivec2 block = nurbsFaceTile.block;
+  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
+  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+}
 
 uniform float nurbsMargin; // pixels by which triangles may be off the surface, and reach over its borders
 mat2 nurbsPerPixel;        // change of t with x and y on screen
@@ -32,8 +40,6 @@ bool nurbsIsUntrimmed(vec2 t, float gap)
 
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 uniform int nurbsCulled;     // 1: the inside is not drawn, 2: the outside, 0: both are
-uniform int nurbsOnce;       // 1: no point of the surface may be drawn twice, as it is translucent
-in vec3 nurbsGridNormal;
 
 nurbsFound nurbsHere; // the point that this fragment shows
 float nurbsDepth;     // its depth, 0 to 1
@@ -42,8 +48,10 @@ vec3 nurbsNormal;     // its unit normal, outwards, in vertexMC's axes
 bool nurbsFront;      // whether the outside is seen
 vec3 nurbsSight;      // direction away from the eye
 
-void nurbsShow(nurbsRay ray, nurbsFound found)
+void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
 {
+  nurbsFaceTile = tile;
+  nurbsTakePatch();
   nurbsHere = found;
   nurbsPerPixel = inverse(found.pixels);
   vec4 h = found.jet.h, hu = found.jet.hu, hv = found.jet.hv;
@@ -52,7 +60,7 @@ void nurbsShow(nurbsRay ray, nurbsFound found)
   nurbsVertex = vec4(point + ray.origin, 1.0);
   vec3 normal = cross(hu.xyz - hu.w * point, hv.xyz - hv.w * point);
   // What the triangles say where it vanishes.
-  nurbsNormal = normal == vec3(0.0) ? normalize(nurbsGridNormal)
+  nurbsNormal = normal == vec3(0.0) ? normalize(nurbsNormalMC)
     : nurbsFaceTile.reversed        ? -normalize(normal)
                                     : normalize(normal);
   nurbsSight = cross(ray.x.xyz, ray.y.xyz);
@@ -107,13 +115,14 @@ bool nurbsFindSamples()
 {
   int mask = 0;
   nurbsFound center;
-  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
-  bool hit = nurbsHit(ray, nurbsFaceTile, nurbsT, center);
+  nurbsTileInfo tile = nurbsFaceTile;
+  nurbsRay ray = nurbsGetRay(tile.surface, gl_FragCoord.xy);
+  bool hit = nurbsFindHit(ray, tile, nurbsT, center);
   bool steep = true;
   float coverage = 0.5;
   if (hit)
   {
-    nurbsShow(ray, center);
+    nurbsShow(ray, tile, center);
     vec4 h = center.jet.h;
     vec3 su = center.jet.hu.xyz - center.jet.hu.w / h.w * h.xyz;
     vec3 sv = center.jet.hv.xyz - center.jet.hv.w / h.w * h.xyz;
@@ -131,15 +140,20 @@ bool nurbsFindSamples()
     if (steep)
     {
       nurbsFound found;
-      ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy + offset);
-      if (!nurbsHit(ray, nurbsFaceTile, t, found))
+      tile = nurbsFaceTile;
+      ray = nurbsGetRay(tile.surface, gl_FragCoord.xy + offset);
+      if (!nurbsFindHit(ray, tile, t, found))
       {
         continue;
       }
-      t = found.t;
+      // Parameters of the face's domain go through all patches alike.
+      t = (vec2(texelFetch(nurbsKnots, tile.block.x).r, texelFetch(nurbsKnots, tile.block.y).r) +
+            found.t * vec2(texelFetch(nurbsKnots, tile.block.x + 1).r,
+                        texelFetch(nurbsKnots, tile.block.y + 1).r) - nurbsStart) / nurbsSize;
       if (!shown)
       {
-        nurbsShow(ray, found);
+        nurbsShow(ray, tile, found);
+        t = found.t;
         shown = true;
       }
     }
@@ -163,16 +177,15 @@ bool nurbsIsSeen = true; // whether the pixel sees the face
 void nurbsBeginFragment()
 {
   nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
-  ivec2 block = nurbsFaceTile.block;
-  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
-  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+  nurbsTakePatch();
 #ifdef NURBS_SAMPLES
   nurbsIsSeen = nurbsFindSamples() && !nurbsIsCulled();
 #elif defined(NURBS_EXACT)
-  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  nurbsTileInfo tile = nurbsFaceTile;
+  nurbsRay ray = nurbsGetRay(tile.surface, gl_FragCoord.xy);
   nurbsFound found;
-  nurbsIsSeen = nurbsHit(ray, nurbsFaceTile, nurbsT, found);
-  nurbsShow(ray, found);
+  nurbsIsSeen = nurbsFindHit(ray, tile, nurbsT, found);
+  nurbsShow(ray, tile, found);
   nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t, nurbsGap()) &&
     !nurbsIsCulled();
 #else

@@ -19,11 +19,8 @@ uniform int nurbsOnce;        // 1: every tile draws its own points only, as the
 vec4 vertexMC;
 vec3 normalMC;
 flat out int nurbsTileIndex;
-out vec2 nurbsT; // parameters in the patch's spans
-
-#ifdef NURBS_EXACT
-out vec3 nurbsGridNormal;
-#endif
+out vec2 nurbsT;        // parameters in the patch's spans
+out vec3 nurbsNormalMC; // outwards, interpolated
 
 #ifdef NURBS_SPREAD
 
@@ -143,14 +140,12 @@ void nurbsFetchVertex()
     normalMC = -normalMC;
     k.x = cells.x - k.x;
   }
+  nurbsNormalMC = normalMC;
   vec3 high = texelFetch(nurbsOrigins, 2 * tile.surface).xyz - nurbsShiftHigh;
   vec3 low = texelFetch(nurbsOrigins, 2 * tile.surface + 1).xyz - nurbsShiftLow;
   vertexMC = vec4(high + (low + local), 1.0);
   nurbsT = vec2(nurbsParameter(tile.first.x + (k.x << skip.x), tile.level.x),
     nurbsParameter(tile.first.y + (k.y << skip.y), tile.level.y));
-#ifdef NURBS_EXACT
-  nurbsGridNormal = normalMC;
-#endif
 #ifdef NURBS_SPREAD
   nurbsSpread(tile, k, cells, skip);
 #endif
