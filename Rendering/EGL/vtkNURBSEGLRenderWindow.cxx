@@ -308,6 +308,18 @@ int vtkNURBSEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, floa
 }
 
 //--------------------------------------------------------------------------------------------------
+int vtkNURBSEGLRenderWindow::GetDepthBufferSize()
+{
+  GLint framebuffer = 0;
+  if (this->Initialized)
+  {
+    this->MakeCurrent();
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  }
+  return framebuffer ? this->Superclass::GetDepthBufferSize() : 32;
+}
+
+//--------------------------------------------------------------------------------------------------
 const char* vtkNURBSEGLRenderWindow::ReportCapabilities()
 {
   this->Initialize();

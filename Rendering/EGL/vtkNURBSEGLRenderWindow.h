@@ -150,6 +150,12 @@ public:
   using vtkGenericOpenGLRenderWindow::GetZbufferData;
 
   /**
+   * Bits of a depth: those of the framebuffer that is bound, and before the first Render() the 32
+   * that VTK asks for. The EGL surface has no depths.
+   */
+  int GetDepthBufferSize() override;
+
+  /**
    * OpenGL's vendor, renderer, version and extensions as text, or the error message.
    */
   const char* ReportCapabilities() override;

@@ -102,9 +102,9 @@ void vtkNURBSBufferTexture::Deactivate(vtkOpenGLRenderWindow* window)
   }
 }
 
-void vtkNURBSBufferTexture::Release(bool hasContext)
+void vtkNURBSBufferTexture::Release()
 {
-  if (this->Buffer && hasContext)
+  if (this->Buffer)
   {
     glDeleteTextures(1, &this->Texture);
     glDeleteBuffers(1, &this->Buffer);

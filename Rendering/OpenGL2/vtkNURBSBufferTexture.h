@@ -40,8 +40,8 @@ public:
   int Activate(vtkOpenGLRenderWindow* window);
   void Deactivate(vtkOpenGLRenderWindow* window);
 
-  /// Deletes it; without a context (its window is gone) it is only forgotten.
-  void Release(bool hasContext);
+  /// Deletes it.
+  void Release();
 
   /// Bytes that were sent to the device by all uploads.
   std::size_t GetBytesSent() const { return this->BytesSent; }

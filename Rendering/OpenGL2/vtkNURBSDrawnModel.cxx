@@ -51,8 +51,10 @@ Stamps PointsOf(vtkUnstructuredGrid* grid)
   return stamps;
 }
 
-std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input)
+// The models of the input; otherData: whether it has data sets that are none.
+std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input, bool& otherData)
 {
+  otherData = false;
   std::vector<vtkNURBSDrawnModel::Leaf> leaves;
   const auto add = [&](vtkDataObject* object, unsigned int index) {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(object);
@@ -64,6 +66,10 @@ std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input)
       leaf.Structure = StructureOf(grid);
       leaf.Points = PointsOf(grid);
       leaves.push_back(std::move(leaf));
+    }
+    else
+    {
+      otherData = otherData || (object && object->GetNumberOfElements(vtkDataObject::POINT) > 0);
     }
   };
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
@@ -111,7 +117,7 @@ nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
 
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
 {
-  std::vector<Leaf> leaves = LeavesOf(input);
+  std::vector<Leaf> leaves = LeavesOf(input, this->OtherData);
   this->Moved.clear();
   this->Warnings.clear();
   bool sameStructure = leaves.size() == this->Leaves.size(), samePoints = true;
@@ -135,10 +141,15 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
     leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
       ? this->Leaves[i].View
       : vtkNURBSModel::View(leaf.Grid);
-    leaf.First = i == 0
-      ? 0
-      : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
+    leaf.First =
+      i == 0 ? 0 : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
   }
+  int faces = 0;
+  for (const Leaf& leaf : leaves)
+  {
+    faces += static_cast<int>(leaf.Model().Faces.size());
+  }
+  sameStructure = sameStructure && faces == this->Table.Size();
   // A face that has lost its surface, or has one now, changes more than points.
   for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
   {
@@ -151,7 +162,15 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
   this->Leaves = std::move(leaves);
   if (!sameStructure)
   {
-    this->Rebuild();
+    try
+    {
+      this->Rebuild();
+    }
+    catch (const nurbs::Error&)
+    {
+      this->Table = nurbs::SurfaceTable();
+      throw;
+    }
     return Change::Surfaces;
   }
   this->Move();
@@ -183,9 +202,9 @@ void vtkNURBSDrawnModel::Rebuild()
     this->Warnings += errors.empty() || this->Warnings.empty() ? errors : "\n" + errors;
     this->AddTrims(nurbs::TrimIndex(model, vtkNURBSParallelFor));
   }
-  vtkNURBSParallelFor(0, this->Table.Size(),
-    [this](std::int64_t first, std::int64_t last)
-    { this->Table.Fill(static_cast<int>(first), static_cast<int>(last)); });
+  vtkNURBSParallelFor(0, this->Table.Size(), [this](std::int64_t first, std::int64_t last) {
+    this->Table.Fill(static_cast<int>(first), static_cast<int>(last));
+  });
 }
 
 void vtkNURBSDrawnModel::AddTrims(const nurbs::TrimIndex& index)
@@ -211,9 +230,8 @@ void vtkNURBSDrawnModel::Move()
   for (const Leaf& leaf : this->Leaves)
   {
     const nurbs::Model& model = leaf.Model();
-    vtkNURBSParallelFor(0, static_cast<std::int64_t>(model.Faces.size()),
-      [&](std::int64_t first, std::int64_t last)
-      {
+    vtkNURBSParallelFor(
+      0, static_cast<std::int64_t>(model.Faces.size()), [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t f = first; f < last; ++f)
         {
           const int index = leaf.First + static_cast<int>(f);
@@ -233,12 +251,15 @@ void vtkNURBSDrawnModel::Move()
   }
 }
 
-nurbs::Box3 vtkNURBSDrawnModel::GetBounds() const
+nurbs::Box3 vtkNURBSDrawnModel::GetBounds(const std::function<bool(int)>& isHidden) const
 {
   nurbs::Box3 box;
   for (int i = 0; i < this->Table.Size(); ++i)
   {
-    box.extend(this->Table[i].Bounds);
+    if (!isHidden || !isHidden(i))
+    {
+      box.extend(this->Table[i].Bounds);
+    }
   }
   return box;
 }

@@ -16,6 +16,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ public:
   enum class Change
   {
     None,
-    Points, ///< Control points or weights of GetMoved().
+    Points,  ///< Control points or weights of GetMoved().
     Surfaces ///< Anything: the tables are new.
   };
 
@@ -45,7 +46,8 @@ public:
   };
 
   /// Takes the input as it is now. Faces with errors are not drawn; GetWarnings has a line for each
-  /// that is new.
+  /// that is new. Throws nurbs::Error if the surfaces are too many or too large for the tables, which
+  /// are empty then until the input changes.
   Change Update(vtkDataObject* input);
 
   const nurbs::SurfaceTable& GetTable() const { return this->Table; }
@@ -53,7 +55,10 @@ public:
   const std::vector<Leaf>& GetLeaves() const { return this->Leaves; }
   const std::vector<int>& GetMoved() const { return this->Moved; }
   const std::string& GetWarnings() const { return this->Warnings; }
-  nurbs::Box3 GetBounds() const;
+  /// True if the input has data, but none of it is a model.
+  bool HasOtherData() const { return this->Leaves.empty() && this->OtherData; }
+  /// Around the surfaces, or those that are not hidden.
+  nurbs::Box3 GetBounds(const std::function<bool(int)>& isHidden = nullptr) const;
   /// The highest degree of a surface, in either direction.
   int GetMaxDegree() const { return this->MaxDegree; }
 
@@ -72,6 +77,7 @@ private:
   std::vector<int> Moved;
   std::string Warnings;
   int MaxDegree = 1;
+  bool OtherData = false;
 };
 
 #endif

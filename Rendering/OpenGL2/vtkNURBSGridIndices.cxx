@@ -102,11 +102,11 @@ void vtkNURBSGridIndices::Draw(int representation, int shape, int count) const
     reinterpret_cast<const void*>(range.Offset), count);
 }
 
-void vtkNURBSGridIndices::Release(bool hasContext)
+void vtkNURBSGridIndices::Release()
 {
-  if (this->Buffer && hasContext)
+  if (this->Buffer)
   {
     glDeleteBuffers(1, &this->Buffer);
+    this->Buffer = 0;
   }
-  this->Buffer = 0;
 }

@@ -17,8 +17,8 @@ public:
   void Unbind();
   /// Draws `count` tiles of a shape by one call; representation is that of vtkProperty.
   void Draw(int representation, int shape, int count) const;
-  /// Deletes it; without a context (its window is gone) it is only forgotten.
-  void Release(bool hasContext);
+  /// Deletes it.
+  void Release();
 
 private:
   struct Range

@@ -14,6 +14,7 @@
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNURBSContextWatch.h"
 #include "vtkNURBSDrawnModel.h"
 #include "vtkNURBSFaceLooks.h"
 #include "vtkNURBSFrameRate.h"
@@ -38,7 +39,6 @@
 #include "vtkTimerLog.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkWeakPointer.h"
 #include "vtk_glew.h"
 
 #include "nurbsExact.h"
@@ -84,7 +84,7 @@ double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
 struct vtkNURBSMapper::Internals
 {
   vtkNURBSDrawnModel Model;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That the objects on the device belong to.
+  vtkNew<vtkNURBSContextWatch> Watch; ///< Of the window that the objects on the device belong to.
   bool ModelIsSent = false;
   std::vector<int> MovedSinceSent;
   vtkMTimeType ModelVersion = 0; ///< Rises with every change of the model.
@@ -129,11 +129,14 @@ struct vtkNURBSMapper::Internals
 
 vtkNURBSMapper::vtkNURBSMapper()
   : Content(new Internals)
-{}
+{
+  this->Content->Watch->OnRelease = [this](vtkOpenGLRenderWindow* window)
+  { this->DeleteObjects(window); };
+}
 
 vtkNURBSMapper::~vtkNURBSMapper()
 {
-  this->ReleaseGraphicsResources(nullptr);
+  this->Content->Watch->Release();
 }
 
 void vtkNURBSMapper::SetCompositeDataDisplayAttributes(
@@ -200,6 +203,16 @@ vtkIdType vtkNURBSMapper::GetNumberOfEvaluatedVertices()
   return static_cast<vtkIdType>(this->Content->Textures.GetEvaluatedVertices());
 }
 
+// An error that holds for as long as the model does not change.
+void vtkNURBSMapper::TellOnce(const std::string& error)
+{
+  if (this->Content->LastError != error)
+  {
+    vtkErrorMacro("The model can't be drawn: " << error);
+    this->Content->LastError = error;
+  }
+}
+
 // Takes the input as it is. False if there is nothing to draw.
 bool vtkNURBSMapper::UpdateModel()
 {
@@ -209,6 +222,7 @@ bool vtkNURBSMapper::UpdateModel()
   {
     return false;
   }
+  const int degree = c.Model.GetMaxDegree();
   try
   {
     const vtkNURBSDrawnModel::Change change = c.Model.Update(input);
@@ -219,10 +233,7 @@ bool vtkNURBSMapper::UpdateModel()
     if (change == vtkNURBSDrawnModel::Change::Surfaces)
     {
       c.ModelIsSent = false;
-      if (c.Model.GetLeaves().empty())
-      {
-        vtkErrorMacro("The input has no NURBS model: it lacks the arrays of vtkNURBSModel.");
-      }
+      c.LastError.clear();
       if (!c.Model.GetWarnings().empty())
       {
         vtkWarningMacro("Faces that can't be drawn:\n" << c.Model.GetWarnings());
@@ -233,10 +244,26 @@ bool vtkNURBSMapper::UpdateModel()
   }
   catch (const nurbs::Error& error)
   {
-    vtkErrorMacro("The model can't be drawn: " << error.what());
-    return false;
+    this->TellOnce(error.what());
+  }
+  if (c.Model.HasOtherData())
+  {
+    this->TellOnce("the input has no NURBS model, it lacks the arrays of vtkNURBSModel");
+  }
+  if (c.Model.GetMaxDegree() != degree)
+  {
+    this->Modified(); // the shader knows it
   }
   return c.Model.GetTable().Size() > 0;
+}
+
+void vtkNURBSMapper::UpdateLooks()
+{
+  Internals& c = *this->Content;
+  if (c.Looks.Update(this, c.Model, this->Attributes))
+  {
+    c.LooksAreSent = false;
+  }
 }
 
 void vtkNURBSMapper::ComputeBounds()
@@ -244,7 +271,9 @@ void vtkNURBSMapper::ComputeBounds()
   vtkMath::UninitializeBounds(this->Bounds);
   if (this->UpdateModel())
   {
-    const nurbs::Box3 box = this->Content->Model.GetBounds();
+    this->UpdateLooks();
+    const nurbs::Box3 box = this->Content->Model.GetBounds(
+      [this](int surface) { return this->Content->Looks.IsHidden(surface); });
     for (int k = 0; k < 3 && !box.isEmpty(); ++k)
     {
       this->Bounds[2 * k] = box.min()[k];
@@ -305,7 +334,6 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
     }
     return false;
   }
-  c.LastError.clear();
   c.MovedSinceSent.clear();
   c.LooksAreSent = false;
   c.ModelIsSent = true;
@@ -318,12 +346,7 @@ void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   {
     return;
   }
-  auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-  if (this->Content->Window != window)
-  {
-    this->ReleaseGraphicsResources(this->Content->Window);
-    this->Content->Window = window;
-  }
+  this->Content->Watch->Watch(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()));
   this->CurrentInput = this->Content->StandIn;
   this->InvokeEvent(vtkCommand::StartEvent, nullptr);
   if (!this->Static)
@@ -380,7 +403,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& c = *this->Content;
   auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-  if (c.Looks.Update(this, c.Model, this->Attributes) || !c.LooksAreSent)
+  this->UpdateLooks();
+  if (!c.LooksAreSent)
   {
     c.LooksAreSent = true;
     c.LookTexture.Upload(c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
@@ -479,9 +503,9 @@ void vtkNURBSMapper::ReplaceShaderValues(
     substitute(fragment, "//VTK::System::Dec",
       "//VTK::System::Dec\n#extension GL_ARB_sample_shading : require\n");
   }
-  substitute(fragment, "//VTK::UniformFlow::Impl",
+  substitute(fragment, "//VTK::PositionVC::Impl",
     std::string("  nurbsBeginFragment();\n") + (this->HasLook(actor) ? "  nurbsBeginLook();\n" : "") +
-      "  //VTK::UniformFlow::Impl\n");
+      "  //VTK::PositionVC::Impl\n");
   // Before depth peeling, which looks at the depth of what stays.
   substitute(fragment, "//VTK::Depth::Impl",
     "  if (!nurbsIsSeen) { discard; }\n  //VTK::Depth::Impl\n");
@@ -504,17 +528,17 @@ void vtkNURBSMapper::ReplaceShaderValues(
 
   if (exact)
   {
-    // The surface's own normal, side and depth, instead of the triangles'.
+    // The surface's own point, normal, side and depth, instead of the triangles'.
     fragment = shaders[vtkShader::Fragment]->GetSource();
     substitute(fragment, "//VTK::Depth::Impl", "gl_FragDepth = gl_FragCoord.z;");
     substitute(fragment, "gl_FrontFacing", "nurbsFront");
     substitute(fragment, "gl_FragCoord.z", "nurbsDepth");
-    substitute(fragment, "vec3 normalVCVSOutput = normalize(normalVCVSOutput);",
-      "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
-    substitute(fragment, "  nurbsBeginFragment();\n",
-      "  nurbsBeginFragment();\n"
-      "  vec3 nurbsExactNormal = nurbsNormal();\n"
-      "  bool nurbsFront = nurbsSeesFront(nurbsExactNormal);\n");
+    substitute(fragment, "normalize(normalVCVSOutput)", "normalize(normalMatrix * nurbsNormal)");
+    substitute(fragment, "in vec4 vertexVCVSOutput;", "uniform mat4 MCVCMatrix;");
+    substitute(fragment, "vertexVCVSOutput", "MCVCMatrix * nurbsVertex");
+    substitute(fragment, "in float clipDistancesVSOutput[6];", "uniform vec4 clipPlanes[6];");
+    substitute(
+      fragment, "clipDistancesVSOutput[planeNum]", "dot(clipPlanes[planeNum], nurbsVertex)");
     shaders[vtkShader::Fragment]->SetSource(fragment);
   }
 }
@@ -632,12 +656,16 @@ void vtkNURBSMapper::SetSurfaceParameters(
   // Each coarser level is off by four times as much; gaps of some pixels can be filled, not more.
   const double error = this->PixelError * std::pow(4.0, c.FrameRate.GetCoarserLevels());
   program->SetUniformf("nurbsMargin", static_cast<float>(std::min(0.1 + error, 4.0)));
+  program->SetUniformi("nurbsOnce", actor->IsRenderingTranslucentPolygonalGeometry() ? 1 : 0);
   if (!this->DrawsExactly(actor))
   {
     return;
   }
   const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
   program->SetUniform3f("nurbsDepthAxis", axis.data());
+  vtkProperty* property = actor->GetProperty();
+  program->SetUniformi("nurbsCulled",
+    property->GetBackfaceCulling() ? 1 : property->GetFrontfaceCulling() ? 2 : 0);
   if (c.Samples > 0)
   {
     std::vector<float> places(2 * c.Samples);
@@ -765,6 +793,11 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     {
       window->GetState()->vtkglLineWidth(actor->GetProperty()->GetLineWidth());
     }
+    vtkOpenGLState::ScopedglEnableDisable culling(window->GetState(), GL_CULL_FACE);
+    if (this->DrawsExactly(actor))
+    {
+      window->GetState()->vtkglDisable(GL_CULL_FACE); // fragments know their side better
+    }
     helper.VAO->Bind(); // a new program has released it
     c.Indices.Bind();
     const double coarser = c.FrameRate.GetCoarserLevels();
@@ -795,35 +828,32 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-// Everything that was made in the window's context, ours and what we use of the superclass. If that
-// window is gone, so are the objects, and only their names are to be forgotten.
+// Everything is deleted in the context that it was made in.
 void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
+  this->Content->Watch->Release();
+  this->Content->Tessellated.ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+// With the window's context current: deletes what was made in it, ours and what we use of the
+// superclass.
+void vtkNURBSMapper::DeleteObjects(vtkOpenGLRenderWindow* window)
+{
   Internals& c = *this->Content;
-  vtkOpenGLRenderWindow* owner = c.Window;
-  if (owner)
+  this->VBOs->ReleaseGraphicsResources(window);
+  this->Primitives[PrimitiveTris].ReleaseGraphicsResources(window);
+  c.Textures.Release(window);
+  c.Indices.Release();
+  for (vtkNURBSBufferTexture* buffer :
+    { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
   {
-    owner->PushContext();
-    this->VBOs->ReleaseGraphicsResources(owner);
-    this->Primitives[PrimitiveTris].ReleaseGraphicsResources(owner);
+    buffer->Release();
   }
-  c.Textures.Release(owner);
-  c.Indices.Release(owner != nullptr);
-  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
-  {
-    buffer->Release(owner != nullptr);
-  }
-  if (owner)
-  {
-    owner->PopContext();
-  }
-  c.Window = nullptr;
   c.ModelIsSent = false;
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;
-  c.Tessellated.ReleaseGraphicsResources(window);
-  this->Superclass::ReleaseGraphicsResources(window);
 }
 
 bool vtkNURBSMapper::HasOpaqueGeometry()
@@ -838,12 +868,8 @@ bool vtkNURBSMapper::HasTranslucentPolygonalGeometry()
   {
     return false;
   }
-  Internals& c = *this->Content;
-  if (c.Looks.Update(this, c.Model, this->Attributes))
-  {
-    c.LooksAreSent = false;
-  }
-  return c.Looks.HasTranslucent();
+  this->UpdateLooks();
+  return this->Content->Looks.HasTranslucent();
 }
 
 void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)

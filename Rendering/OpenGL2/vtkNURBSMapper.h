@@ -240,7 +240,9 @@ private:
   vtkNURBSMapper(const vtkNURBSMapper&) = delete;
   void operator=(const vtkNURBSMapper&) = delete;
 
+  void TellOnce(const std::string& error);
   bool UpdateModel();
+  void UpdateLooks();
   bool UpdateTextures(vtkRenderer* renderer);
   bool HasLook(vtkActor* actor);
   bool DrawsExactly(vtkActor* actor);
@@ -250,6 +252,7 @@ private:
   void SetLookParameters(
     vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
+  void DeleteObjects(vtkOpenGLRenderWindow* window);
   void UpdateSamples(vtkRenderer* renderer);
   void UpdateEconomy(vtkRenderer* renderer);
 

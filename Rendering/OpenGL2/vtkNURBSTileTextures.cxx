@@ -355,7 +355,7 @@ vtkShaderProgram* vtkNURBSTileTextures::Program(
 {
   std::string vertex = nurbsEvaluateVS, fragment = nurbsEvaluateFS;
   const std::string defines = "//VTK::System::Dec\n#define DEGREE " + std::to_string(degree) +
-    "\n#define MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) +
+    "\n#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) +
     (dir == 0 ? "\n#define ALONG_U\n" : "\n");
   vtkShaderProgram::Substitute(vertex, "//VTK::System::Dec", defines);
   vtkShaderProgram::Substitute(vertex, "//NURBS::Tile::Dec", nurbsTile);
@@ -402,14 +402,11 @@ void vtkNURBSTileTextures::Release(vtkOpenGLRenderWindow* window)
   }
   this->RowBuffer->ReleaseGraphicsResources(window);
   this->AtlasBuffer->ReleaseGraphicsResources(window);
-  if (window)
-  {
-    this->NoAttributes->ReleaseGraphicsResources();
-  }
+  this->NoAttributes->ReleaseGraphicsResources();
   for (vtkNURBSBufferTexture* buffer : { &this->Points, &this->Knots, &this->Surfaces,
          &this->Origins, &this->Tiles, &this->Jobs })
   {
-    buffer->Release(window != nullptr);
+    buffer->Release();
   }
   this->Atlas.Resize(0, 0);
 }

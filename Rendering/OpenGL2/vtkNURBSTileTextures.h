@@ -69,7 +69,7 @@ public:
   void Activate(vtkOpenGLRenderWindow* window, vtkShaderProgram* program);
   void Deactivate(vtkOpenGLRenderWindow* window);
 
-  /// Deletes all; null if the window is gone, and its context with it.
+  /// Deletes all.
   void Release(vtkOpenGLRenderWindow* window);
 
   const std::string& GetError() const { return this->Error; }

@@ -238,6 +238,21 @@ TEST(EGLRenderWindow, DepthGivesThePointOnTheSphere)
   }
 }
 
+// Before the first frame nothing but the EGL surface is bound, which has no depths to ask for.
+TEST(EGLRenderWindow, CameraIsResetBeforeTheFirstFrameWithoutErrors)
+{
+  auto scene = SquareScene(0.0, 1, 1, 1);
+  Window window = MakeWindow(100, 100, scene);
+  ASSERT_TRUE(window);
+  scene->ResetCamera();
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+  EXPECT_GE(window->GetDepthBufferSize(), 24);
+  EXPECT_EQ(scene->GetNearClippingPlaneTolerance(), 0.001) << "VTK's for more than 16 bits";
+  window->Render();
+  EXPECT_GE(window->GetDepthBufferSize(), 24);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
 TEST(EGLRenderWindow, MultisamplingSmoothsEdgesOnly)
 {
   auto scene = SphereScene();

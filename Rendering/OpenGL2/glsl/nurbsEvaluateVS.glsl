@@ -16,7 +16,7 @@ void main()
 {
   ivec4 job = texelFetch(nurbsJobs, firstJob + gl_InstanceID);
   nurbsTileInfo tile = nurbsGetTile(job.x);
-  ivec2 samples = (ivec2(1) << min(tile.level, ivec2(MAX_LOG))) + 1;
+  ivec2 samples = (ivec2(1) << min(tile.level, ivec2(NURBS_MAX_LOG))) + 1;
 #ifdef ALONG_U
   ivec2 place = job.yz;
   samples.y = tile.degree.y + 1;

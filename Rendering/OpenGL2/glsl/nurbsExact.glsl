@@ -11,6 +11,7 @@ uniform vec3 nurbsShiftHigh;
 uniform vec3 nurbsShiftLow;
 uniform mat4 nurbsToClip;   // from vertexMC
 uniform vec4 nurbsViewport; // x, y, width, height in pixels
+uniform int nurbsOnce;      // 1: no point of the surface may be drawn twice, as it is translucent
 
 // Homogeneous point and derivatives with respect to the patch's own parameters.
 struct nurbsJet
@@ -87,6 +88,7 @@ nurbsJet nurbsEvaluate(nurbsTileInfo tile, vec2 t)
 struct nurbsRay
 {
   vec4 x, y, z, w;
+  vec3 origin; // of the surface, in vertexMC's coordinates
 };
 
 nurbsRay nurbsGetRay(int surface, vec2 pixel)
@@ -98,12 +100,12 @@ nurbsRay nurbsGetRay(int surface, vec2 pixel)
   ray.y = 0.5 * nurbsViewport.w * (m[1] - ndc.y * m[3]);
   ray.z = m[2];
   ray.w = m[3];
-  vec3 origin = (texelFetch(nurbsOrigins, 2 * surface).xyz - nurbsShiftHigh) +
+  ray.origin = (texelFetch(nurbsOrigins, 2 * surface).xyz - nurbsShiftHigh) +
     (texelFetch(nurbsOrigins, 2 * surface + 1).xyz - nurbsShiftLow);
-  ray.x.w += dot(ray.x.xyz, origin);
-  ray.y.w += dot(ray.y.xyz, origin);
-  ray.z.w += dot(ray.z.xyz, origin);
-  ray.w.w += dot(ray.w.xyz, origin);
+  ray.x.w += dot(ray.x.xyz, ray.origin);
+  ray.y.w += dot(ray.y.xyz, ray.origin);
+  ray.z.w += dot(ray.z.xyz, ray.origin);
+  ray.w.w += dot(ray.w.xyz, ray.origin);
   return ray;
 }
 
@@ -120,7 +122,7 @@ struct nurbsFound
 // From parameters near the hit to the hit. False if the ray passes the surface by.
 bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, vec2 start, out nurbsFound found)
 {
-  vec2 t = start;
+  vec2 t = clamp(start, 0.0, 1.0); // triangles reach over borders, where high degrees run away
   float radius = texelFetch(nurbsOrigins, 2 * tile.surface + 1).w;
   vec2 last = t;
   float side = 0.0; // on which side of the outline the search began
@@ -192,7 +194,8 @@ bool nurbsStepOver(inout nurbsTileInfo tile, int dir, inout vec2 t)
   return true;
 }
 
-// The hit in the patch that the ray meets, which may be the next one.
+// The hit in the patch that the ray meets, which may be the next one; that draws it itself if no point
+// may be drawn twice.
 bool nurbsFindHit(nurbsRay ray, inout nurbsTileInfo tile, vec2 start, out nurbsFound found)
 {
   vec2 t = start;
@@ -201,6 +204,10 @@ bool nurbsFindHit(nurbsRay ray, inout nurbsTileInfo tile, vec2 start, out nurbsF
     if (!nurbsHit(ray, tile, t, found))
     {
       return false;
+    }
+    if (nurbsOnce == 1)
+    {
+      break;
     }
     t = found.t;
     bool overU = nurbsStepOver(tile, 0, t);

@@ -39,9 +39,13 @@ bool nurbsIsUntrimmed(vec2 t, float gap)
 #ifdef NURBS_EXACT
 
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
+uniform int nurbsCulled;     // 1: the inside is not drawn, 2: the outside, 0: both are
 
 nurbsFound nurbsHere; // the point that this fragment shows
 float nurbsDepth;     // its depth, 0 to 1
+vec4 nurbsVertex;     // its place, as vertexMC
+vec3 nurbsNormal;     // its unit normal, outwards, in vertexMC's axes
+bool nurbsFront;      // whether the outside is seen
 vec3 nurbsSight;      // direction away from the eye
 
 void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
@@ -50,9 +54,18 @@ void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
   nurbsTakePatch();
   nurbsHere = found;
   nurbsPerPixel = inverse(found.pixels);
-  nurbsDepth = 0.5 + 0.5 * dot(ray.z, found.jet.h) / dot(ray.w, found.jet.h);
+  vec4 h = found.jet.h, hu = found.jet.hu, hv = found.jet.hv;
+  vec3 point = h.xyz / h.w;
+  nurbsDepth = 0.5 + 0.5 * dot(ray.z, h) / dot(ray.w, h);
+  nurbsVertex = vec4(point + ray.origin, 1.0);
+  vec3 normal = cross(hu.xyz - hu.w * point, hv.xyz - hv.w * point);
+  // What the triangles say where it vanishes.
+  nurbsNormal = normal == vec3(0.0) ? normalize(nurbsNormalMC)
+    : nurbsFaceTile.reversed        ? -normalize(normal)
+                                    : normalize(normal);
   nurbsSight = cross(ray.x.xyz, ray.y.xyz);
   nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
+  nurbsFront = dot(nurbsNormal, nurbsSight) < 0.0;
 }
 
 // Pixels that this face may be off its neighbours at an edge.
@@ -63,23 +76,32 @@ float nurbsGap()
 }
 
 // Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this patch
-// that is seen. Beyond other sides the next patch goes on as this one does.
+// that is seen. Beyond other sides the next tile goes on as this one does, and either may draw the
+// point; of a translucent surface, only the one that has it.
 bool nurbsIsOnPatch(vec2 t)
 {
+  bool once = nurbsOnce == 1;
   for (int dir = 0; dir < 2; ++dir)
   {
     int sides = int(texelFetch(nurbsKnots, nurbsFaceTile.block[dir] + 3).r);
     float perPixel = length(vec2(nurbsPerPixel[0][dir], nurbsPerPixel[1][dir]));
     float open = perPixel * nurbsGap();
     float smoothly = min(2.0 * perPixel * nurbsMargin, 0.25);
-    float low = (sides & 1) != 0 ? open : smoothly;
-    float high = (sides & 2) != 0 ? open : smoothly;
-    if (t[dir] < -low || t[dir] > 1.0 + high)
+    float within = perPixel * (nurbsHere.noise + 1e-4);
+    vec2 range = once ? nurbsRange(nurbsFaceTile, dir) : vec2(0.0, 1.0);
+    float low = (sides & 1) != 0 && range.x == 0.0 ? open : once ? within : smoothly;
+    float high = (sides & 2) != 0 && range.y == 1.0 ? open : once ? within : smoothly;
+    if (t[dir] < range.x - low || t[dir] > range.y + high)
     {
       return false;
     }
   }
   return true;
+}
+
+bool nurbsIsCulled()
+{
+  return nurbsCulled == (nurbsFront ? 2 : 1);
 }
 
 #ifdef NURBS_SAMPLES
@@ -147,25 +169,6 @@ bool nurbsFindSamples()
 
 #endif
 
-// The exact unit normal, outwards, or what the triangles say where it vanishes.
-vec3 nurbsNormal()
-{
-  vec4 h = nurbsHere.jet.h, hu = nurbsHere.jet.hu, hv = nurbsHere.jet.hv;
-  vec3 normal = cross(hu.xyz - hu.w / h.w * h.xyz, hv.xyz - hv.w / h.w * h.xyz);
-  float size = length(normal);
-  if (size == 0.0)
-  {
-    return normalize(nurbsNormalMC);
-  }
-  return (nurbsFaceTile.reversed ? -normal : normal) / size;
-}
-
-// Whether the outside is seen.
-bool nurbsSeesFront(vec3 normal)
-{
-  return dot(normal, nurbsSight) < 0.0;
-}
-
 #endif
 
 bool nurbsIsSeen = true; // whether the pixel sees the face
@@ -176,14 +179,15 @@ void nurbsBeginFragment()
   nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
   nurbsTakePatch();
 #ifdef NURBS_SAMPLES
-  nurbsIsSeen = nurbsFindSamples();
+  nurbsIsSeen = nurbsFindSamples() && !nurbsIsCulled();
 #elif defined(NURBS_EXACT)
   nurbsTileInfo tile = nurbsFaceTile;
   nurbsRay ray = nurbsGetRay(tile.surface, gl_FragCoord.xy);
   nurbsFound found;
   nurbsIsSeen = nurbsFindHit(ray, tile, nurbsT, found);
   nurbsShow(ray, tile, found);
-  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t, nurbsGap());
+  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t, nurbsGap()) &&
+    !nurbsIsCulled();
 #else
   nurbsPerPixel = mat2(dFdx(nurbsT), dFdy(nurbsT));
   nurbsIsSeen = nurbsIsUntrimmed(nurbsT, nurbsMargin);

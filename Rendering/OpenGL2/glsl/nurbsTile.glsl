@@ -44,3 +44,10 @@ float nurbsParameter(int k, int level)
 {
   return float(k) / float(1 << level);
 }
+
+// Where a tile starts and ends in its span.
+vec2 nurbsRange(nurbsTileInfo tile, int dir)
+{
+  return vec2(nurbsParameter(tile.first[dir], tile.level[dir]),
+    nurbsParameter(tile.first[dir] + (1 << min(tile.level[dir], NURBS_MAX_LOG)), tile.level[dir]));
+}

@@ -13,6 +13,7 @@ uniform float nurbsCoarser;         // levels by which tiles are drawn coarser t
 uniform mat4 nurbsToClip;     // from vertexMC
 uniform vec4 nurbsViewport;   // x, y, width, height in pixels
 uniform float nurbsMargin;    // pixels by which triangles may be off the surface
+uniform int nurbsOnce;        // 1: every tile draws its own points only, as they are translucent
 #endif
 
 vec4 vertexMC;
@@ -71,20 +72,24 @@ void nurbsSpread(nurbsTileInfo tile, ivec2 k, ivec2 cells, ivec2 skip)
   for (int dir = 0; dir < 2; ++dir)
   {
     // What has moved along the normal reaches over every border of the tile, lest it bare something.
-    int sides = moved ? 3 : int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
-    int at = moved ? k[dir] : tile.first[dir] + (k[dir] << skip[dir]);
-    int end = moved ? cells[dir] : 1 << tile.level[dir];
+    bool all = moved || nurbsOnce == 1;
+    int sides = all ? 3 : int(texelFetch(nurbsKnots, tile.block[dir] + 3).r);
+    int at = all ? k[dir] : tile.first[dir] + (k[dir] << skip[dir]);
+    int end = all ? cells[dir] : 1 << tile.level[dir];
     float outwards = at == 0 && (sides & 1) != 0 ? -1.0 : at == end && (sides & 2) != 0 ? 1.0 : 0.0;
     float reach = moved ? 2.0 * nurbsMargin : nurbsMargin;
 #ifdef NURBS_EXACT
     // Pixels of a cell across the border, which a step outwards need not be on screen.
     float pixels = area / max(length(screen[1 - dir]), 1e-6 * length(screen[dir]));
     float most = 64.0;
+    // Beyond a pole, triangles of a translucent surface would cover each other.
+    bool reaches = nurbsOnce == 0 || length(screen[1 - dir]) > 1e-4 * length(screen[dir]);
 #else
     float pixels = length(screen[dir]);
     float most = 0.5; // nobody takes back what is too much
+    bool reaches = nurbsOnce == 0;
 #endif
-    if (outwards != 0.0 && length(screen[dir]) > 0.0)
+    if (outwards != 0.0 && length(screen[dir]) > 0.0 && reaches)
     {
       float cellsOut = outwards * min(reach / max(pixels, 1e-30), most);
       shift += cellsOut * step[dir];
