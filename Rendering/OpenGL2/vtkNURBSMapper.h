@@ -127,6 +127,14 @@ public:
    */
   vtkSetClampMacro(Look, int, PLAIN, DRAFT_ANGLE);
   vtkGetMacro(Look, int);
+  void SetLookToPlain() { this->SetLook(PLAIN); }
+  void SetLookToMeanCurvature() { this->SetLook(MEAN_CURVATURE); }
+  void SetLookToGaussianCurvature() { this->SetLook(GAUSSIAN_CURVATURE); }
+  void SetLookToMinimumCurvature() { this->SetLook(MINIMUM_CURVATURE); }
+  void SetLookToMaximumCurvature() { this->SetLook(MAXIMUM_CURVATURE); }
+  void SetLookToZebra() { this->SetLook(ZEBRA); }
+  void SetLookToIsophotes() { this->SetLook(ISOPHOTES); }
+  void SetLookToDraftAngle() { this->SetLook(DRAFT_ANGLE); }
   ///@}
 
   ///@{
