@@ -344,7 +344,7 @@ void CollapseShortEdges(CompletedModel& out, const std::vector<double>& shortest
   for (std::size_t e = 0; e < length.size(); ++e)
   {
     const Edge& edge = model.Edges[e];
-    if (edge.Geometry.Count > 1 && shortest[e] > 0.0 && edge.Vertex[0] != edge.Vertex[1])
+    if (edge.Geometry.Count > 1 && shortest[e] > 0.0)
     {
       const double bound = LengthBound(model, edge);
       length[e] = bound <= shortest[e] ? bound : -1.0;

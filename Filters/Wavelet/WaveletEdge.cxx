@@ -13,7 +13,8 @@ constexpr int MaximumDepth = 12;
 constexpr int ClosedIntervals = 4; // Of an edge that ends where it starts.
 constexpr int CurveSamples = 64;   // Of a curve whose second derivative has no bound, a base interval.
 constexpr double SampledSafety = 1.5;
-constexpr double SameParameter = 1e-9; // Of the edge: lines closer than this are one.
+constexpr double SameBreak = 1e-6; // Of the edge: base lines closer than this are one.
+constexpr double SameLine = 1e-9;  // Of the box: a line of the edge that is one of the face.
 
 // The direction along a side of a box (0: u, 1: v).
 int Along(int side)
@@ -52,7 +53,7 @@ struct Strip
 
 void SortBreaks(std::vector<double>& breaks, const Interval& domain)
 {
-  const double near = SameParameter * domain.Length();
+  const double near = SameBreak * domain.Length();
   std::sort(breaks.begin(), breaks.end());
   std::vector<double> out(1, domain.Min);
   for (double t : breaks)
@@ -125,7 +126,7 @@ WaveletEdge::WaveletEdge(const Model& model, std::int64_t edge, const std::vecto
     const int n = this->Lines.Intervals();
     const int d = Along(use.Side);
     const bool forward = use.UV[0][d] < use.UV[n][d];
-    const double near = SameParameter * (axis.Breaks.back() - axis.Breaks.front());
+    const double near = SameLine * (axis.Breaks.back() - axis.Breaks.front());
     use.AtLine.assign(axis.Intervals() + 1, -1);
     int at = 0;
     for (int i = 0; i <= axis.Intervals(); ++i)

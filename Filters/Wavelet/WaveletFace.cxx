@@ -13,7 +13,9 @@ namespace
 constexpr int MaximumDepth = 12;       // Halvings of a base interval.
 constexpr int ClosedIntervals = 4;     // Of a closed direction's base grid, so that it encloses something.
 constexpr int BoundLines = 8;          // Cells of the grid of bounds in a base interval.
-constexpr double SnapDistance = 1e-9;  // Of the box.
+constexpr double SnapDistance = 1e-9;  // Of the box, to its sides.
+constexpr double Sliver = 1e-7;        // Of the box: sides that are as good as a knot.
+constexpr double SnapToCrease = 1e-6;  // Likewise, to creases.
 constexpr double SameSide = 1e-9;      // Of the control net: closed or degenerate sides.
 
 float Up(double x)
@@ -65,6 +67,15 @@ ParameterBox LoopBox(const Model& model, const Face& face)
     {
       throw Error("its loops enclose no area");
     }
+    // Slivers between a side and a knot would have no sensible bounds.
+    const double sliver = Sliver * (range[d][1] - range[d][0]);
+    for (const Knot& knot : DistinctKnots(face.Geometry.Knots[d], face.Geometry.Degree[d]))
+    {
+      for (double& side : range[d])
+      {
+        side = std::abs(knot.Value - side) <= sliver ? knot.Value : side;
+      }
+    }
   }
   return { range[0][0], range[0][1], range[1][0], range[1][1] };
 }
@@ -94,7 +105,8 @@ void WaveletFace::MakeBreaks(const SurfaceView& surface)
     breaks.insert(breaks.end(), creases.begin(), creases.end());
     breaks.push_back(d == 0 ? this->Used.U1 : this->Used.V1);
     const Interval domain = surface.Domain(d);
-    const bool whole = breaks.front() == domain.Min && breaks.back() == domain.Max;
+    const double eps = Sliver * domain.Length();
+    const bool whole = breaks.front() <= domain.Min + eps && breaks.back() >= domain.Max - eps;
     const bool poles =
       IsDegenerateSide(surface, d, 0, near) || IsDegenerateSide(surface, d, 1, near);
     Halve(breaks, whole && IsClosed(surface, d, near) ? ClosedIntervals : poles ? 2 : 1);
@@ -402,7 +414,7 @@ Vec2 WaveletFace::Snap(const Vec2& uv) const
                                        : p[d] > breaks.back() - eps ? breaks.back() : p[d];
     for (double crease : this->Bounds->Creases(d))
     {
-      p[d] = std::abs(p[d] - crease) <= eps ? crease : p[d];
+      p[d] = std::abs(p[d] - crease) <= SnapToCrease * (breaks.back() - breaks.front()) ? crease : p[d];
     }
   }
   return p;

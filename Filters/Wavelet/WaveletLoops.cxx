@@ -73,8 +73,8 @@ std::vector<double> SideLines(const WaveletFace& face, const WaveletSelection& s
   return out;
 }
 
-// Box of a trim curve's samples from one line to another, and a little more.
-Box2 RangeOf(const std::vector<Vec2>& uv, int first, int last)
+// Box of a trim curve's samples from one line to another, and a little more, within the face's box.
+Box2 RangeOf(const WaveletFace& face, const std::vector<Vec2>& uv, int first, int last)
 {
   Box2 box;
   for (int i = first; i <= last; ++i)
@@ -82,7 +82,9 @@ Box2 RangeOf(const std::vector<Vec2>& uv, int first, int last)
     box.extend(uv[i]);
   }
   const Vec2 more = 0.1 * box.diagonal();
-  return Box2(box.min() - more, box.max() + more);
+  const ParameterBox& all = face.Box();
+  return Box2(Vec2((box.min() - more).cwiseMax(Vec2(all.U0, all.V0))),
+    Vec2((box.max() + more).cwiseMin(Vec2(all.U1, all.V1))));
 }
 
 } // namespace
@@ -249,7 +251,12 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
       }
     }
     const int n = haar ? int(points.size()) : int(lines.size());
-    const Box2 whole = haar && use.Side < 0 ? RangeOf(use.UV, 0, int(use.UV.size()) - 1) : Box2();
+    // Lines around the piece between Haar samples i and next: means are of intervals around them.
+    const auto haarRange = [&](int i, int next) {
+      const int last = int(use.UV.size()) - 1;
+      const int low = (std::min(i, next) - 1) * (1 << level);
+      return RangeOf(face, use.UV, std::clamp(low, 0, last), std::clamp(low + (2 << level), 0, last));
+    };
     for (int k = 0; k < n; ++k)
     {
       const int i = curve.Reversed ? n - 1 - k : k;
@@ -264,7 +271,10 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
         v.First = haar ? 0 : std::min(lines[i], lines[next]);
         v.Last = haar ? (level > 0 ? 2 : 1) : std::max(lines[i], lines[next]);
         v.SegmentError = haar ? edge.HaarError(level) : edge.SegmentError(v.First, v.Last);
-        v.Range = haar ? whole : v.OnSide ? Box2() : RangeOf(use.UV, v.First, v.Last);
+        if (!v.OnSide)
+        {
+          v.Range = haar ? haarRange(i, next) : RangeOf(face, use.UV, v.First, v.Last);
+        }
       }
       part.push_back(v);
     }

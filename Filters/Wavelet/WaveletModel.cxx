@@ -13,6 +13,7 @@ namespace nurbs
 namespace
 {
 constexpr double SameSide = 1e-7;   // Of the model: sides that coincide.
+constexpr double ShortEdge = 0.01;  // Of the finest tolerance: edges that are one point.
 constexpr double EdgeShare = 0.5;   // Of a tolerance, for the edges' chords.
 constexpr int MaximumRounds = 16;   // Of refinement where a mesh errs more than asked for.
 constexpr int DiagonalSamples = 9;  // A face and direction.
@@ -89,6 +90,8 @@ WaveletModel::WaveletModel(const Model& model, const std::vector<std::string>& f
     throw Error("the finest tolerance must be positive and finite");
   }
   this->Data = CompleteModel(model, faceErrors, SameSide * Diagonal(model, faceErrors));
+  CollapseShortEdges(this->Data,
+    std::vector<double>(this->Data.Data.Edges.size(), ShortEdge * options.Finest.Tolerance));
   const Model& data = this->Data.Data;
   this->Faces.resize(data.Faces.size());
   this->Edges.resize(data.Edges.size());
@@ -156,6 +159,10 @@ int WaveletModel::Levels() const
   for (const auto& face : this->Faces)
   {
     levels = std::max(levels, face ? face->Levels() : 1);
+  }
+  for (const auto& edge : this->Edges)
+  {
+    levels = std::max(levels, edge ? edge->Axis().Depth + 1 : 1);
   }
   return levels;
 }
@@ -270,7 +277,7 @@ WaveletMeshes WaveletModel::TriangleBudget(std::int64_t triangles) const
 
 WaveletSelection WaveletModel::SelectLevels(const std::vector<int>& levels) const
 {
-  WaveletSelection out(this->Faces.size(), this->Edges.size());
+  WaveletSelection out(this->Options.Kind, this->Faces.size(), this->Edges.size());
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     if (this->Faces[f])
@@ -297,7 +304,7 @@ WaveletSelection WaveletModel::SelectLevels(const std::vector<int>& levels) cons
 
 WaveletSelection WaveletModel::SelectError(double tolerance) const
 {
-  WaveletSelection out(this->Faces.size(), this->Edges.size());
+  WaveletSelection out(this->Options.Kind, this->Faces.size(), this->Edges.size());
   const bool adaptive = this->Options.Kind == Wavelet::Interpolating;
   this->Options.Parallel(
     0, std::int64_t(this->Faces.size()), [&](std::int64_t begin, std::int64_t end) {
@@ -345,7 +352,7 @@ WaveletSelection WaveletModel::SelectError(double tolerance) const
 
 WaveletSelection WaveletModel::SelectThreshold(double threshold) const
 {
-  WaveletSelection out(this->Faces.size(), this->Edges.size());
+  WaveletSelection out(this->Options.Kind, this->Faces.size(), this->Edges.size());
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     const WaveletFace* face = this->Faces[f].get();

@@ -55,7 +55,7 @@ public:
   void SetProgress(std::function<bool(double)> progress) { this->Options.Progress = progress; }
   /// True if Progress ended the work; there is nothing to mesh then.
   bool IsAborted() const { return this->Aborted; }
-  /// Levels of the face that has the most, at least 1. Level 0 is the finest.
+  /// Levels of the face or edge that has the most, at least 1. Level 0 is the finest.
   int Levels() const;
   /// Null: the face can't be used.
   const WaveletFace* GetFace(std::int64_t face) const { return this->Faces[face].get(); }

@@ -81,8 +81,9 @@ std::int64_t CountCells(const WaveletFace& face, double threshold)
   return count;
 }
 
-WaveletSelection::WaveletSelection(std::size_t faces, std::size_t edges)
-  : Cells(faces)
+WaveletSelection::WaveletSelection(Wavelet kind, std::size_t faces, std::size_t edges)
+  : Haar(kind == Wavelet::Haar)
+  , Cells(faces)
   , Level(faces, 0)
   , Lines(edges)
   , EdgeLevel(edges, 0)
@@ -98,7 +99,7 @@ void WaveletSelection::SetEdgeLevel(std::size_t edge, const WaveletEdge& source,
 {
   this->EdgeLevel[edge] = std::clamp(level, 0, source.Axis().Depth);
   this->Lines[edge].clear();
-  for (int i = 0; i <= source.Axis().Intervals(this->EdgeLevel[edge]); ++i)
+  for (int i = 0; !this->Haar && i <= source.Axis().Intervals(this->EdgeLevel[edge]); ++i)
   {
     this->Lines[edge].push_back(i << this->EdgeLevel[edge]);
   }

@@ -24,13 +24,14 @@ std::int64_t CountCells(const WaveletFace& face, double threshold);
 /// Cells by face and segments by edge.
 struct WaveletSelection
 {
+  bool Haar;                                   ///< Edges have one level.
   std::vector<std::vector<WaveletCell>> Cells; ///< Empty: all of the face's Level.
   std::vector<int> Level;                      ///< The level of the face's grid.
-  std::vector<std::vector<int>> Lines;         ///< An edge's vertices, ascending (not for Haar).
+  std::vector<std::vector<int>> Lines;         ///< An edge's vertices, ascending; none for Haar.
   std::vector<int> EdgeLevel;                  ///< Haar.
   std::vector<char> ChangedEdges;
 
-  WaveletSelection(std::size_t faces, std::size_t edges);
+  WaveletSelection(Wavelet kind, std::size_t faces, std::size_t edges);
 
   void SetLevel(std::size_t face, const WaveletFace& source, int level);
   void SetEdgeLevel(std::size_t edge, const WaveletEdge& source, int level);
