@@ -550,7 +550,7 @@ private:
     }
     const double twist = (corner[0] - corner[1] + corner[2] - corner[3]).norm();
     const double through =
-      (boundary.size() > 4 ? 2.0 : 1.0) * leaf.Error + 0.25 * twist + offset;
+      (boundary.size() > 4 ? leaf.ErrorWithVertices : leaf.Error) + 0.25 * twist + offset;
     if (!this->Job.OnSurface)
     {
       return through;

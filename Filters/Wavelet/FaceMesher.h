@@ -52,6 +52,8 @@ struct GridLeaf
   int I0, I1, J0, J1;
   WaveletCell Cell;
   double Error = 0.0; ///< Bound of the distance between its bilinear interpolation and the surface.
+  /// Likewise if some of the surface's points are vertices, but for the cell's twist.
+  double ErrorWithVertices = 0.0;
 };
 
 /// What a face is meshed from.

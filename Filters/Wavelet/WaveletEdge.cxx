@@ -441,4 +441,38 @@ double WaveletEdge::HaarDropped(int level) const
   return largest;
 }
 
+std::int64_t WaveletEdge::CountSegments(double threshold) const
+{
+  if (this->Coefficients.empty())
+  {
+    int level = this->Lines.Depth;
+    while (level > 0 && this->HaarDropped(level) > threshold)
+    {
+      --level;
+    }
+    return this->Lines.Intervals(level) + 1;
+  }
+  std::int64_t count = this->Lines.BaseIntervals();
+  for (const std::vector<float>& level : this->Coefficients)
+  {
+    for (const float coefficient : level)
+    {
+      count += double(coefficient) > threshold;
+    }
+  }
+  return count;
+}
+
+int WaveletEdge::LevelOfSides(const std::vector<int>& faces, int level) const
+{
+  for (const WaveletEdgeUse& use : this->Where)
+  {
+    if (use.Side >= 0)
+    {
+      level = std::min(level, faces[use.Where.Face]);
+    }
+  }
+  return level;
+}
+
 } // namespace nurbs

@@ -49,6 +49,10 @@ public:
   /// The largest coefficient between two lines (Haar: that a level lacks).
   double LargestCoefficient(int first, int last) const;
   double HaarDropped(int level) const;
+  /// Segments that are left when those with a coefficient over a threshold are halved.
+  std::int64_t CountSegments(double threshold) const;
+  /// The finest level of the faces whose side it is, but not coarser than `level`.
+  int LevelOfSides(const std::vector<int>& faces, int level) const;
 
 private:
   void FindSides(const Model& model, const std::vector<std::unique_ptr<WaveletFace>>& faces);

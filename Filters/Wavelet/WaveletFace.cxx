@@ -249,12 +249,14 @@ void WaveletFace::MeasureCells(const std::vector<Vec3>& finest)
   const std::size_t width = this->Axes[0].Intervals() + 1;
   this->Deviations.resize(this->Levels());
   this->Coefficients.resize(this->Levels());
+  this->Ranges.resize(this->Levels());
   for (int k = 1; k < this->Levels(); ++k)
   {
     const int nu = this->Axes[0].Intervals(k);
     const int nv = this->Axes[1].Intervals(k);
     this->Deviations[k].resize(std::size_t(nu) * nv);
     this->Coefficients[k].resize(std::size_t(nu) * nv);
+    this->Ranges[k].resize(std::size_t(nu) * nv);
     for (int j = 0; j < nv; ++j)
     {
       for (int i = 0; i < nu; ++i)
@@ -269,6 +271,7 @@ void WaveletFace::MeasureCells(const std::vector<Vec3>& finest)
         const int a[3] = { at[0], (at[0] + at[1]) / 2, at[1] };
         const int b[3] = { at[2], (at[2] + at[3]) / 2, at[3] };
         double own = 0.0;
+        Box3 range(Vec3(Vec3::Zero()));
         for (int t = 0; t < 3; ++t)
         {
           for (int s = 0; s < 3; ++s)
@@ -281,20 +284,31 @@ void WaveletFace::MeasureCells(const std::vector<Vec3>& finest)
             const double q = 0.5 * t;
             const Vec3 bilinear = (1.0 - q) * ((1.0 - p) * x(a[0], b[0]) + p * x(a[2], b[0])) +
               q * ((1.0 - p) * x(a[0], b[2]) + p * x(a[2], b[2]));
-            own = std::max(own, (x(a[s], b[t]) - bilinear).norm());
+            const Vec3 deviation = x(a[s], b[t]) - bilinear;
+            own = std::max(own, deviation.norm());
+            range.extend(deviation);
           }
         }
         double finer = 0.0;
         double coefficient = own;
+        Box3 finerRange(Vec3(Vec3::Zero()));
         WaveletCell children[4];
         const int count = k > 1 ? this->Children(cell, children) : 0;
         for (int c = 0; c < count; ++c)
         {
           finer = std::max(finer, this->Deviation(children[c]));
           coefficient = std::max(coefficient, this->LargestCoefficient(children[c]));
+          finerRange.extend(this->Ranges[k - 1][this->IndexOf(children[c])].cast<double>());
         }
-        this->Deviations[k][i + std::size_t(j) * nu] = Up(own + finer);
-        this->Coefficients[k][i + std::size_t(j) * nu] = Up(coefficient);
+        const std::size_t index = this->IndexOf(cell);
+        this->Deviations[k][index] = Up(own + finer);
+        this->Coefficients[k][index] = Up(coefficient);
+        Eigen::AlignedBox3f& all = this->Ranges[k][index];
+        for (int c = 0; c < 3; ++c)
+        {
+          all.min()[c] = -Up(-(range.min()[c] + finerRange.min()[c]));
+          all.max()[c] = Up(range.max()[c] + finerRange.max()[c]);
+        }
       }
     }
   }
@@ -364,18 +378,26 @@ std::vector<Eigen::Vector3f> WaveletFace::Normals(int level) const
   return out;
 }
 
+std::size_t WaveletFace::IndexOf(const WaveletCell& cell) const
+{
+  return cell.I + std::size_t(cell.J) * this->Axes[0].Intervals(cell.Level);
+}
+
 double WaveletFace::Deviation(const WaveletCell& cell) const
+{
+  return cell.Level == 0 ? 0.0 : double(this->Deviations[cell.Level][this->IndexOf(cell)]);
+}
+
+double WaveletFace::Spread(const WaveletCell& cell) const
 {
   return cell.Level == 0
     ? 0.0
-    : this->Deviations[cell.Level][cell.I + std::size_t(cell.J) * this->Axes[0].Intervals(cell.Level)];
+    : this->Ranges[cell.Level][this->IndexOf(cell)].diagonal().cast<double>().norm();
 }
 
 double WaveletFace::LargestCoefficient(const WaveletCell& cell) const
 {
-  return cell.Level == 0 ? 0.0
-                         : this->Coefficients[cell.Level][cell.I +
-                             std::size_t(cell.J) * this->Axes[0].Intervals(cell.Level)];
+  return cell.Level == 0 ? 0.0 : double(this->Coefficients[cell.Level][this->IndexOf(cell)]);
 }
 
 int WaveletFace::Children(const WaveletCell& cell, WaveletCell (&children)[4]) const

@@ -67,6 +67,9 @@ public:
 
   /// Bound of the distance of a cell's bilinear interpolation from the finest level's.
   double Deviation(const WaveletCell& cell) const;
+  /// Bound of the distance between any two vectors from the one interpolation to the other, which is
+  /// how far linear interpolation of some of them is from the others.
+  double Spread(const WaveletCell& cell) const;
   /// Largest coefficient in the cell, on all finer levels.
   double LargestCoefficient(const WaveletCell& cell) const;
   /// The cells of the next finer level, 2 or 4. Level must not be 0.
@@ -83,6 +86,7 @@ private:
   void Evaluate(Wavelet kind);
   void MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest);
   void MeasureCells(const std::vector<Vec3>& finest);
+  std::size_t IndexOf(const WaveletCell& cell) const;
 
   bool Turned = false; ///< Normals are against Su x Sv.
   ParameterBox Used;
@@ -96,6 +100,7 @@ private:
   std::vector<double> Steps; ///< Distance of level k's from level k + 1's bilinear interpolation.
   std::vector<double> Twist; ///< Largest of a level.
   std::vector<std::vector<float>> Deviations, Coefficients; ///< Of the cells of level k >= 1.
+  std::vector<std::vector<Eigen::AlignedBox3f>> Ranges;     ///< Of the vectors of the deviation.
 };
 
 } // namespace nurbs

@@ -358,6 +358,10 @@ FaceMeshJob WaveletModel::Job(
   job.Normals = face.Normals(level);
   job.Loops = this->Loops(f, selection);
   job.Limit = limit;
+  // Vertices on a cell's sides are off its bilinear interpolation by no more than the surface is.
+  const auto withVertices = [&](const WaveletCell& cell) {
+    return 2.0 * face.FineError() + std::min(face.Spread(cell), 2.0 * face.Deviation(cell));
+  };
   for (const WaveletCell& cell : selection.Cells[f])
   {
     int at[4];
@@ -365,7 +369,7 @@ FaceMeshJob WaveletModel::Job(
     const int u = face.Axis(0).Halvings(level);
     const int v = face.Axis(1).Halvings(level);
     job.Leaves.push_back({ at[0] >> u, at[1] >> u, at[2] >> v, at[3] >> v, cell,
-      face.FineError() + face.Deviation(cell) });
+      face.FineError() + face.Deviation(cell), withVertices(cell) });
   }
   if (!job.Leaves.empty())
   {
@@ -377,8 +381,9 @@ FaceMeshJob WaveletModel::Job(
     for (int i = 0; i + 1 < int(job.Lines[0].size()); ++i)
     {
       const WaveletCell cell{ level, i, j };
-      job.Leaves.push_back(
-        { i, i + 1, j, j + 1, cell, job.OnSurface ? face.FineError() + face.Deviation(cell) : error });
+      job.Leaves.push_back({ i, i + 1, j, j + 1, cell,
+        job.OnSurface ? face.FineError() + face.Deviation(cell) : error,
+        job.OnSurface ? withVertices(cell) : 2.0 * error });
     }
   }
   return job;

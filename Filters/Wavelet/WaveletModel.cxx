@@ -17,7 +17,8 @@ constexpr double ShortEdge = 0.01;  // Of the finest tolerance: edges that are o
 constexpr double EdgeShare = 0.5;   // Of a tolerance, for the edges' chords.
 constexpr int MaximumRounds = 16;   // Of refinement where a mesh errs more than asked for.
 constexpr int DiagonalSamples = 9;  // A face and direction.
-constexpr int BudgetTries = 8;
+constexpr int BudgetTries = 10;
+constexpr double NegligibleThreshold = 1e-12; // Of the largest coefficient.
 constexpr double BudgetUsed = 0.97; // A budget that is used so far will do.
 
 double Diagonal(const Model& model, const std::vector<std::string>& faceErrors)
@@ -214,65 +215,66 @@ WaveletMeshes WaveletModel::TriangleBudget(std::int64_t triangles) const
     }
     return sum;
   };
-  const double largest = this->LargestThreshold();
-  WaveletMeshes best;
-  bool found = false;
+  // Thresholds under `low` make too many triangles, `high` does not, if the coarsest mesh does not.
+  double low = 0.0;
+  double high = this->LargestThreshold();
+  const double negligible = NegligibleThreshold * high;
+  WaveletSelection coarsest = this->SelectThreshold(high);
+  WaveletMeshes best = this->Mesh(coarsest, 1e300);
+  best.Threshold = high;
+  best.WithinBudget = count(best) <= triangles;
   double share = 1.0; // Estimates per triangle made.
-  double last = -1.0;
-  for (int attempt = 0; attempt < BudgetTries; ++attempt)
+  for (int attempt = 0; attempt < BudgetTries && best.WithinBudget && !best.Aborted; ++attempt)
   {
-    const auto fits = [&](double threshold) {
-      return double(this->EstimateTriangles(threshold)) <= share * double(triangles);
-    };
-    double high = largest;
-    double low = 0.0;
-    if (fits(0.0))
+    double threshold = this->ThresholdOfEstimate(share * double(triangles), low, high);
+    if (attempt > 2 && low > 0.0)
     {
-      high = 0.0;
+      threshold = std::sqrt(low * high);
     }
-    for (int step = 0; step < 60 && high > 0.0; ++step)
+    threshold = threshold <= negligible ? 0.0 : threshold;
+    if (threshold >= high || (low > 0.0 && threshold <= low))
     {
-      const double middle = low > 0.0 ? std::sqrt(low * high) : 1e-3 * high;
-      if (low == 0.0 && high < 1e-15 * largest)
+      break;
+    }
+    WaveletSelection selection = this->SelectThreshold(threshold);
+    WaveletMeshes meshes = this->Mesh(selection, 1e300);
+    meshes.Threshold = threshold;
+    const std::int64_t made = count(meshes);
+    share *= double(triangles) / double(std::max<std::int64_t>(1, made));
+    if (meshes.Aborted || made <= triangles)
+    {
+      best = std::move(meshes);
+      high = threshold;
+      if (double(made) >= BudgetUsed * double(triangles) || threshold == 0.0)
       {
         break;
       }
-      (fits(middle) ? high : low) = middle;
     }
-    if (high == last)
+    else
     {
-      break;
+      low = std::max(threshold, negligible);
     }
-    last = high;
-    WaveletSelection selection = this->SelectThreshold(high);
-    WaveletMeshes meshes = this->Mesh(selection, 1e300);
-    meshes.Threshold = high;
-    const std::int64_t made = count(meshes);
-    const bool within = made <= triangles;
-    if (meshes.Aborted)
-    {
-      return meshes;
-    }
-    if (within && (!found || made > count(best)))
-    {
-      best = std::move(meshes);
-      found = true;
-    }
-    if (within && (double(made) >= BudgetUsed * double(triangles) || high == 0.0))
-    {
-      break;
-    }
-    // Too many: the estimate must come out smaller, by what it missed and a little more.
-    share *= double(triangles) / double(std::max<std::int64_t>(1, made)) * (within ? 1.0 : 0.995);
-  }
-  if (!found)
-  {
-    WaveletSelection selection = this->SelectThreshold(largest);
-    best = this->Mesh(selection, 1e300);
-    best.Threshold = largest;
-    best.WithinBudget = count(best) <= triangles;
   }
   return best;
+}
+
+// The smallest threshold between two whose estimate keeps within a number of triangles.
+double WaveletModel::ThresholdOfEstimate(double triangles, double low, double high) const
+{
+  if (low == 0.0)
+  {
+    if (double(this->EstimateTriangles(0.0)) <= triangles)
+    {
+      return 0.0;
+    }
+    low = NegligibleThreshold * high;
+  }
+  for (int step = 0; step < 24 && low < high; ++step)
+  {
+    const double middle = std::sqrt(low * high);
+    (double(this->EstimateTriangles(middle)) <= triangles ? high : low) = middle;
+  }
+  return high;
 }
 
 WaveletSelection WaveletModel::SelectLevels(const std::vector<int>& levels) const
@@ -334,10 +336,14 @@ WaveletSelection WaveletModel::SelectError(double tolerance) const
       continue;
     }
     int level = edge->Axis().Depth;
-    while (this->Options.Kind == Wavelet::Haar && level > 0 &&
-      edge->HaarError(level) > EdgeShare * tolerance)
+    if (this->Options.Kind == Wavelet::Haar)
     {
-      --level;
+      // Where an edge has the level of its faces, their cells reach it.
+      level = edge->LevelOfSides(out.Level, level);
+      while (level > 0 && edge->HaarError(level) > tolerance)
+      {
+        --level;
+      }
     }
     out.SetEdgeLevel(e, *edge, level);
     if (this->Options.Kind != Wavelet::Haar)
@@ -374,10 +380,13 @@ WaveletSelection WaveletModel::SelectThreshold(double threshold) const
       continue;
     }
     int level = edge->Axis().Depth;
-    while (this->Options.Kind == Wavelet::Haar && level > 0 &&
-      edge->HaarDropped(level) > threshold)
+    if (this->Options.Kind == Wavelet::Haar)
     {
-      --level;
+      level = edge->LevelOfSides(out.Level, level);
+      while (level > 0 && edge->HaarDropped(level) > threshold)
+      {
+        --level;
+      }
     }
     out.SetEdgeLevel(e, *edge, level);
     if (this->Options.Kind != Wavelet::Haar)
@@ -405,7 +414,15 @@ std::int64_t WaveletModel::EstimateTriangles(double threshold) const
       cells += std::int64_t(step.FineSamples(0) - 1) * (step.FineSamples(1) - 1);
     }
   }
-  return 2 * cells;
+  std::int64_t segments = 0;
+  for (const auto& edge : this->Edges)
+  {
+    if (edge && !edge->IsPole())
+    {
+      segments += edge->CountSegments(threshold) * std::int64_t(edge->Uses().size());
+    }
+  }
+  return 2 * cells + segments;
 }
 
 // Over which there is no coefficient.

@@ -79,6 +79,7 @@ private:
   WaveletSelection SelectThreshold(double threshold) const;
   std::int64_t EstimateTriangles(double threshold) const;
   double LargestThreshold() const;
+  double ThresholdOfEstimate(double triangles, double low, double high) const;
   WaveletMeshes Mesh(WaveletSelection& selection, double limit) const;
   void ShareLines(WaveletSelection& selection) const;
   void Uncross(WaveletSelection& selection) const;
