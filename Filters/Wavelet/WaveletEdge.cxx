@@ -156,7 +156,12 @@ WaveletEdge::WaveletEdge(const Model& model, std::int64_t edge, const std::vecto
     samples.front() = this->Fine.front();
     samples.back() = this->Fine.back();
     this->Haar = WaveletPyramid(kind, this->Lines, none, samples);
-    std::vector<double> across(1, 0.0);
+    const std::vector<double> across(1, 0.0);
+    if (this->Lines.BaseIntervals() > 1) // There may be a kink, which Haar samples pass by.
+    {
+      this->FineError += BilinearDistance(this->Lines.Samples(kind, 0), across, samples,
+        this->Lines.Samples(Wavelet::Interpolating, 0), across, this->Fine);
+    }
     for (int k = 0; k + 1 < this->Haar.Levels(); ++k)
     {
       const std::vector<Vec3> coarse = this->Haar.Level(k + 1);

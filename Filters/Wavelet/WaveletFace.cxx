@@ -218,7 +218,11 @@ void WaveletFace::MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest)
     grids[k] = this->Samples.Refine(k, grids[k + 1]);
   }
   grids[0] = finest;
-  std::vector<double> u, v, coarseU, coarseV;
+  if (kind == Wavelet::Haar && !(this->Bounds->Creases(0).empty() && this->Bounds->Creases(1).empty()))
+  {
+    this->AddCreases(finest);
+  }
+  std::vector<double> u, v;
   for (int k = 0; k < this->Levels(); ++k)
   {
     u = this->Axes[0].Samples(kind, k);
@@ -241,6 +245,18 @@ void WaveletFace::MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest)
         this->Axes[1].Samples(kind, k + 1), grids[k + 1]));
     }
   }
+}
+
+// Haar samples lie beside a crease, where the bounds say nothing: the grid of lines, which are on it,
+// leads from one to the other.
+void WaveletFace::AddCreases(const std::vector<Vec3>& finest)
+{
+  const std::vector<double> us = this->Axes[0].Samples(Wavelet::Interpolating, 0);
+  const std::vector<double> vs = this->Axes[1].Samples(Wavelet::Interpolating, 0);
+  std::vector<Vec3> lines(us.size() * vs.size());
+  SurfaceEvaluator(this->Bounds->Evaluator()).Grid(us, vs, lines[0].data(), nullptr);
+  this->Fine += BilinearDistance(this->Axes[0].Samples(Wavelet::Haar, 0),
+    this->Axes[1].Samples(Wavelet::Haar, 0), finest, us, vs, lines);
 }
 
 // Bottom up: a cell deviates by no more than its new samples do, and the worst of its parts.

@@ -85,6 +85,7 @@ private:
   void MakeDepths(Wavelet kind, const FinestGrid& finest);
   void Evaluate(Wavelet kind);
   void MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest);
+  void AddCreases(const std::vector<Vec3>& finest);
   void MeasureCells(const std::vector<Vec3>& finest);
   std::size_t IndexOf(const WaveletCell& cell) const;
 
