@@ -146,14 +146,13 @@ void MatchSides(CompletedModel& out, std::size_t firstLoop, double tolerance)
       sides.push_back(side);
     }
   }
-  std::stable_sort(sides.begin(), sides.end(),
-    [](const Side& a, const Side& b) { return a.Order < b.Order; });
+  std::stable_sort(
+    sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.Order < b.Order; });
   std::vector<char> taken(sides.size(), 0);
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
-    for (std::size_t j = i + 1; j < sides.size() && !taken[i] &&
-         sides[j].Order - sides[i].Order <= tolerance;
-         ++j)
+    for (std::size_t j = i + 1;
+         j < sides.size() && !taken[i] && sides[j].Order - sides[i].Order <= tolerance; ++j)
     {
       const bool forward = Apart(sides[i], sides[j], false) <= tolerance;
       const bool backward = !forward && Apart(sides[i], sides[j], true) <= tolerance;

@@ -42,8 +42,8 @@ Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<Edg
 /// a degenerate edge.
 /// @param sideTolerance sides of faces without loops that are nowhere farther apart than this, at
 /// parameters that run evenly along both, become one edge, too. Negative: none do.
-CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors,
-  double sideTolerance = -1.0);
+CompletedModel CompleteModel(
+  const Model& model, const std::vector<std::string>& faceErrors, double sideTolerance = -1.0);
 
 /// Makes one vertex of the ends of edges that are too short to matter, and the edge a degenerate one.
 /// Neighbouring short edges become points only as far as they are so short together; a loop keeps two

@@ -132,8 +132,7 @@ bool vtkNURBSModelPool::IsUpToDate(vtkDataObject* input) const
   return same && next == this->Leaves.size();
 }
 
-bool vtkNURBSModelPool::MakeOutputs(
-  vtkDataObject* input, vtkInformationVector* outputs, int ports)
+bool vtkNURBSModelPool::MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports)
 {
   if (!input)
   {

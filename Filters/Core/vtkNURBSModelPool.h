@@ -3,8 +3,8 @@
  * @file vtkNURBSModelPool.h
  * @brief All models of an input in one, for filters that turn models into polygonal data.
  *
- * An input is a vtkUnstructuredGrid or a composite data set of them; the output is a vtkPolyData, or a
- * composite of the input's type and structure with one vtkPolyData a model.
+ * An input is a vtkUnstructuredGrid or a composite data set of them; the output is a vtkPolyData,
+ * or a composite of the input's type and structure with one vtkPolyData a model.
  */
 #ifndef vtkNURBSModelPool_h
 #define vtkNURBSModelPool_h
@@ -21,7 +21,8 @@ class vtkNURBSModelView;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-/// The models of one input; indices of the faces, loops, curves and edges go on from model to model.
+/// The models of one input; indices of the faces, loops, curves and edges go on from model to
+/// model.
 class VTKNURBSFILTERSCORE_EXPORT vtkNURBSModelPool
 {
 public:
@@ -44,8 +45,8 @@ public:
   /// True if the input still has the grids that were collected, and none was modified since.
   bool IsUpToDate(vtkDataObject* input) const;
 
-  /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject. False:
-  /// there is no input.
+  /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject.
+  /// False: there is no input.
   static bool MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports);
   /// Empties an output and gives it the input's structure and assembly.
   static void CopyTree(vtkDataObject* input, vtkDataObject* output);

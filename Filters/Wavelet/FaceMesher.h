@@ -3,8 +3,9 @@
 /// @brief The triangles of one face: cells of its grid, and what is between them and its loops.
 ///
 /// Cells that the loops leave whole become two triangles, or more where neighbours have vertices on
-/// their sides. What the loops cut is triangulated together with their polylines (ZoneTriangulation.h).
-/// Sides of the grid's box that are edges need no cutting: their cells take the edge's vertices.
+/// their sides. What the loops cut is triangulated together with their polylines
+/// (ZoneTriangulation.h). Sides of the grid's box that are edges need no cutting: their cells take
+/// the edge's vertices.
 #pragma once
 
 #include "WaveletFace.h"
@@ -61,20 +62,20 @@ struct FaceMeshJob
 {
   const WaveletFace* Source = nullptr;
   bool Reversed = false;
-  bool OnSurface = true;       ///< Samples are on the surface at their parameters.
-  double Offset = 0.0;         ///< Else, bound of their distance from it.
+  bool OnSurface = true; ///< Samples are on the surface at their parameters.
+  double Offset = 0.0;   ///< Else, bound of their distance from it.
   std::vector<double> Lines[2];
   std::vector<Vec3> Samples;
   std::vector<Eigen::Vector3f> Normals;
   std::vector<GridLeaf> Leaves; ///< They cover the grid.
   std::vector<std::vector<LoopVertex>> Loops;
-  double Limit = 1e300;         ///< Errors above it ask for refinement.
+  double Limit = 1e300; ///< Errors above it ask for refinement.
 };
 
 /// What has to be finer for the Limit's sake.
 struct FaceMeshRequests
 {
-  std::vector<int> Leaves;                                       ///< Indices of the job's.
+  std::vector<int> Leaves;                                            ///< Indices of the job's.
   std::vector<std::pair<std::int64_t, std::pair<int, int>>> Segments; ///< Edge, its lines.
 };
 

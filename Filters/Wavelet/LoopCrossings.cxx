@@ -48,8 +48,7 @@ bool IsCollapsed(const std::vector<LoopVertex>& loop)
     const Vec2 b = loop[(k + 1) % loop.size()].UV - loop[0].UV;
     area += a[0] * b[1] - a[1] * b[0];
     box.extend(loop[k].UV);
-    if (places.size() < 3 &&
-      std::find(places.begin(), places.end(), loop[k].X) == places.end())
+    if (places.size() < 3 && std::find(places.begin(), places.end(), loop[k].X) == places.end())
     {
       places.push_back(loop[k].X);
     }

@@ -11,7 +11,8 @@ namespace
 {
 constexpr int MaximumDepth = 12;
 constexpr int ClosedIntervals = 4; // Of an edge that ends where it starts.
-constexpr int CurveSamples = 64;   // Of a curve whose second derivative has no bound, a base interval.
+constexpr int CurveSamples =
+  64; // Of a curve whose second derivative has no bound, a base interval.
 constexpr double SampledSafety = 1.5;
 constexpr double SameBreak = 1e-6; // Of the edge: base lines closer than this are one.
 constexpr double SameLine = 1e-9;  // Of the box: a line of the edge that is one of the face.
@@ -95,12 +96,12 @@ WaveletEdge::WaveletEdge(const Model& model, std::int64_t edge, const std::vecto
   {
     ++this->Lines.Depth;
   }
-  for (const WaveletEdgeUse& use : this->Where)
+  for (WaveletEdgeUse& use : this->Where)
   {
     if (use.Side >= 0)
     {
-      this->Lines.Depth = std::max(
-        this->Lines.Depth, faces[use.Where.Face]->Axis(Along(use.Side)).Depth);
+      use.SideDepth = faces[use.Where.Face]->Axis(Along(use.Side)).Depth;
+      this->Lines.Depth = std::max(this->Lines.Depth, use.SideDepth);
     }
   }
   this->FineError = this->Bow(model, faces, second);
@@ -121,7 +122,8 @@ WaveletEdge::WaveletEdge(const Model& model, std::int64_t edge, const std::vecto
     {
       continue;
     }
-    // Which line of the edge is at each of the face's: both in order, one of them perhaps backwards.
+    // Which line of the edge is at each of the face's: both in order, one of them perhaps
+    // backwards.
     const DyadicAxis& axis = face.Axis(Along(use.Side));
     const int n = this->Lines.Intervals();
     const int d = Along(use.Side);
@@ -180,14 +182,13 @@ WaveletEdge::WaveletEdge(const Model& model, std::int64_t edge, const std::vecto
     {
       const int a = i << k;
       const int b = (i + 1) << k;
-      const double own =
-        (this->Fine[(a + b) / 2] - 0.5 * (this->Fine[a] + this->Fine[b])).norm();
+      const double own = (this->Fine[(a + b) / 2] - 0.5 * (this->Fine[a] + this->Fine[b])).norm();
       const auto& finer = this->Deviations[k - 1];
       const auto& greater = this->Coefficients[k - 1];
       this->Deviations[k].push_back(
         float(1.0000002 * (own + (k > 1 ? std::max(finer[2 * i], finer[2 * i + 1]) : 0.0f))));
-      this->Coefficients[k].push_back(float(
-        std::max(own, k > 1 ? double(std::max(greater[2 * i], greater[2 * i + 1])) : 0.0)));
+      this->Coefficients[k].push_back(
+        float(std::max(own, k > 1 ? double(std::max(greater[2 * i], greater[2 * i + 1])) : 0.0)));
     }
   }
 }
@@ -228,8 +229,7 @@ void WaveletEdge::MakeBreaks(
   if (curve.Count > 1)
   {
     const Strip strip(curve);
-    const SurfaceBound bound(
-      strip.View, { this->Domain.Min, this->Domain.Max, 0.0, 1.0 });
+    const SurfaceBound bound(strip.View, { this->Domain.Min, this->Domain.Max, 0.0, 1.0 });
     breaks = bound.Creases(0);
   }
   for (const WaveletEdgeUse& use : this->Where)
@@ -241,8 +241,7 @@ void WaveletEdge::MakeBreaks(
       const Interval own = trim.Geometry.Domain();
       for (double t : CreaseKnots(trim.Geometry.Knots, trim.Geometry.Degree))
       {
-        breaks.push_back(
-          this->Domain.Min + (t - own.Min) * (this->Domain.Length() / own.Length()));
+        breaks.push_back(this->Domain.Min + (t - own.Min) * (this->Domain.Length() / own.Length()));
       }
       this->AddCrossings(model, use, face);
       continue;
@@ -279,9 +278,8 @@ void WaveletEdge::AddCrossings(
   {
     for (double crease : face.Bound().Creases(d))
     {
-      const auto beyond = [&](double t) {
-        return this->Parameters(model, use, face, t)[d] - crease;
-      };
+      const auto beyond = [&](
+                            double t) { return this->Parameters(model, use, face, t)[d] - crease; };
       double before = this->Domain.Min;
       for (int i = 1; i <= n; ++i)
       {
@@ -323,10 +321,10 @@ Vec2 WaveletEdge::Parameters(
   return face.Snap(nurbs::Evaluate(trim.Geometry, TrimParameter(trim, this->Domain, t)));
 }
 
-// Largest distance of the curve from its finest chords. `second`: bounds of the second derivative in
-// the base intervals, found in the first call.
-double WaveletEdge::Bow(const Model& model,
-  const std::vector<std::unique_ptr<WaveletFace>>& faces, std::vector<double>& second) const
+// Largest distance of the curve from its finest chords. `second`: bounds of the second derivative
+// in the base intervals, found in the first call.
+double WaveletEdge::Bow(const Model& model, const std::vector<std::unique_ptr<WaveletFace>>& faces,
+  std::vector<double>& second) const
 {
   const std::vector<double>& breaks = this->Lines.Breaks;
   const CurveView<3>& curve = model.Edges[this->Index].Geometry;
@@ -373,8 +371,8 @@ double WaveletEdge::Bow(const Model& model,
       for (int k = 1; k < CurveSamples; ++k)
       {
         const double t = breaks[i] + k * h;
-        const Vec3 difference = this->Point(model, t - h) - 2.0 * this->Point(model, t) +
-          this->Point(model, t + h);
+        const Vec3 difference =
+          this->Point(model, t - h) - 2.0 * this->Point(model, t) + this->Point(model, t + h);
         largest = std::max(largest, difference.norm() / (h * h));
       }
       second.push_back(SampledSafety * largest);
@@ -474,7 +472,8 @@ int WaveletEdge::LevelOfSides(const std::vector<int>& faces, int level) const
   {
     if (use.Side >= 0)
     {
-      level = std::min(level, faces[use.Where.Face]);
+      const int halvings = std::min(faces[use.Where.Face], use.SideDepth);
+      level = std::min(level, this->Lines.Depth - use.SideDepth + halvings);
     }
   }
   return level;

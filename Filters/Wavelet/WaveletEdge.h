@@ -15,8 +15,9 @@ namespace nurbs
 struct WaveletEdgeUse
 {
   EdgeUse Where;
-  int Side = -1;           ///< Of the face's box, all along: 0 v = min, 1 u = max, 2 v = max, 3 u = min.
+  int Side = -1; ///< Of the face's box, all along: 0 v = min, 1 u = max, 2 v = max, 3 u = min.
   std::vector<Vec2> UV;    ///< In the face's domain, at the edge's finest lines.
+  int SideDepth = 0;       ///< With a Side: how often the face's grid halves it.
   std::vector<int> AtLine; ///< With a Side: the edge's line at the face's finest line; -1: none.
 };
 
@@ -38,12 +39,12 @@ public:
   /// Haar: the samples of a level.
   std::vector<Vec3> HaarLevel(int level) const;
   /// Haar: the parameters in a face of a level's samples.
-  std::vector<Vec2> HaarUV(const Model& model, std::size_t use, int level,
-    const WaveletFace& face) const;
+  std::vector<Vec2> HaarUV(
+    const Model& model, std::size_t use, int level, const WaveletFace& face) const;
 
-  /// Bound of the distance between the curve and the samples' polyline from line `first` to `last` of
-  /// the finest lines (Haar: the whole polyline of a level). The curve's own part of it is certified
-  /// for edges with a 3D curve and sides of surfaces, and sampled for others.
+  /// Bound of the distance between the curve and the samples' polyline from line `first` to `last`
+  /// of the finest lines (Haar: the whole polyline of a level). The curve's own part of it is
+  /// certified for edges with a 3D curve and sides of surfaces, and sampled for others.
   double SegmentError(int first, int last) const;
   double HaarError(int level) const;
   /// The largest coefficient between two lines (Haar: that a level lacks).
@@ -51,7 +52,8 @@ public:
   double HaarDropped(int level) const;
   /// Segments that are left when those with a coefficient over a threshold are halved.
   std::int64_t CountSegments(double threshold) const;
-  /// The finest level of the faces whose side it is, but not coarser than `level`.
+  /// The coarsest level as fine as the grids of the faces whose side it is, and not coarser than
+  /// `level`.
   int LevelOfSides(const std::vector<int>& faces, int level) const;
 
 private:

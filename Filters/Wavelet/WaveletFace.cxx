@@ -10,13 +10,14 @@ namespace nurbs
 
 namespace
 {
-constexpr int MaximumDepth = 12;       // Halvings of a base interval.
-constexpr int ClosedIntervals = 4;     // Of a closed direction's base grid, so that it encloses something.
-constexpr int BoundLines = 8;          // Cells of the grid of bounds in a base interval.
-constexpr double SnapDistance = 1e-9;  // Of the box, to its sides.
-constexpr double Sliver = 1e-7;        // Of the box: sides that are as good as a knot.
-constexpr double SnapToCrease = 1e-6;  // Likewise, to creases.
-constexpr double SameSide = 1e-9;      // Of the control net: closed or degenerate sides.
+constexpr int MaximumDepth = 12; // Halvings of a base interval.
+constexpr int ClosedIntervals =
+  4;                          // Of a closed direction's base grid, so that it encloses something.
+constexpr int BoundLines = 8; // Cells of the grid of bounds in a base interval.
+constexpr double SnapDistance = 1e-9; // Of the box, to its sides.
+constexpr double Sliver = 1e-7;       // Of the box: sides that are as good as a knot.
+constexpr double SnapToCrease = 1e-6; // Likewise, to creases.
+constexpr double SameSide = 1e-9;     // Of the control net: closed or degenerate sides.
 
 float Up(double x)
 {
@@ -218,7 +219,8 @@ void WaveletFace::MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest)
     grids[k] = this->Samples.Refine(k, grids[k + 1]);
   }
   grids[0] = finest;
-  if (kind == Wavelet::Haar && !(this->Bounds->Creases(0).empty() && this->Bounds->Creases(1).empty()))
+  if (kind == Wavelet::Haar &&
+    !(this->Bounds->Creases(0).empty() && this->Bounds->Creases(1).empty()))
   {
     this->AddCreases(finest);
   }
@@ -234,8 +236,8 @@ void WaveletFace::MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest)
       const Vec3* row = &grids[k][j * width];
       for (std::size_t i = 0; i + 1 < width; ++i)
       {
-        twist =
-          std::max(twist, (row[i] - row[i + 1] - row[i + width] + row[i + width + 1]).squaredNorm());
+        twist = std::max(
+          twist, (row[i] - row[i + 1] - row[i + width] + row[i + width + 1]).squaredNorm());
       }
     }
     this->Twist.push_back(std::sqrt(twist));
@@ -247,8 +249,8 @@ void WaveletFace::MeasureLevels(Wavelet kind, const std::vector<Vec3>& finest)
   }
 }
 
-// Haar samples lie beside a crease, where the bounds say nothing: the grid of lines, which are on it,
-// leads from one to the other.
+// Haar samples lie beside a crease, where the bounds say nothing: the grid of lines, which are on
+// it, leads from one to the other.
 void WaveletFace::AddCreases(const std::vector<Vec3>& finest)
 {
   const std::vector<double> us = this->Axes[0].Samples(Wavelet::Interpolating, 0);
@@ -364,7 +366,7 @@ std::vector<Eigen::Vector3f> WaveletFace::Normals(int level) const
   const int count[2] = { LineSamples(this->Kind, this->Axes[0].Intervals(level)),
     LineSamples(this->Kind, this->Axes[1].Intervals(level)) };
   // The fine samples beside sample i of the level: one, or the two in the middle of a Haar cell.
-  const auto beside = [&](int dir, int i, int (&at)[2]) {
+  const auto beside = [&](int dir, int i, int(&at)[2]) {
     if (this->Kind != Wavelet::Haar)
     {
       at[0] = at[1] = i * step[dir];
@@ -449,10 +451,12 @@ Vec2 WaveletFace::Snap(const Vec2& uv) const
     const std::vector<double>& breaks = this->Axes[d].Breaks;
     const double eps = SnapDistance * (breaks.back() - breaks.front());
     p[d] = p[d] < breaks.front() + eps ? breaks.front()
-                                       : p[d] > breaks.back() - eps ? breaks.back() : p[d];
+      : p[d] > breaks.back() - eps     ? breaks.back()
+                                       : p[d];
     for (double crease : this->Bounds->Creases(d))
     {
-      p[d] = std::abs(p[d] - crease) <= SnapToCrease * (breaks.back() - breaks.front()) ? crease : p[d];
+      p[d] =
+        std::abs(p[d] - crease) <= SnapToCrease * (breaks.back() - breaks.front()) ? crease : p[d];
     }
   }
   return p;

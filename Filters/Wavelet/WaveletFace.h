@@ -3,9 +3,9 @@
 /// @brief One face as a pyramid of samples, with a bound of the error of every cell of every level.
 ///
 /// A level's mesh is compared with the surface at equal parameters: the finest grid's bilinear
-/// interpolation is within bounds of the second derivatives (SurfaceBound.h), each level's within the
-/// largest distance from the next finer one (bilinear patches lie in the hull of their corners, so
-/// that their corners tell it), and two triangles within a quarter of the twist of their cell.
+/// interpolation is within bounds of the second derivatives (SurfaceBound.h), each level's within
+/// the largest distance from the next finer one (bilinear patches lie in the hull of their corners,
+/// so that their corners tell it), and two triangles within a quarter of the twist of their cell.
 #pragma once
 
 #include "CompletedModel.h"
@@ -31,8 +31,8 @@ struct FinestGrid
   std::int64_t MaximumSamples = 1024 * 1024; ///< Of one face.
 };
 
-/// The box of a face's loops in its domain: that of their curves' control points; without loops, the
-/// domain. Throws Error if it is empty.
+/// The box of a face's loops in its domain: that of their curves' control points; without loops,
+/// the domain. Throws Error if it is empty.
 ParameterBox LoopBox(const Model& model, const Face& face);
 
 /// The box of a face's loops, the dyadic grid over it, and what evaluation and analysis gave.
@@ -53,7 +53,8 @@ public:
   /// True if MaximumSamples kept the finest grid from its tolerance.
   bool IsCapped() const { return this->Capped; }
 
-  /// Bound of the distance of a level's bilinear interpolation from the surface, at equal parameters.
+  /// Bound of the distance of a level's bilinear interpolation from the surface, at equal
+  /// parameters.
   double BilinearError(int level) const;
   /// Bound of the distance of the mesh of a level over its grid.
   double LevelError(int level) const;
@@ -67,8 +68,8 @@ public:
 
   /// Bound of the distance of a cell's bilinear interpolation from the finest level's.
   double Deviation(const WaveletCell& cell) const;
-  /// Bound of the distance between any two vectors from the one interpolation to the other, which is
-  /// how far linear interpolation of some of them is from the others.
+  /// Bound of the distance between any two vectors from the one interpolation to the other, which
+  /// is how far linear interpolation of some of them is from the others.
   double Spread(const WaveletCell& cell) const;
   /// Largest coefficient in the cell, on all finer levels.
   double LargestCoefficient(const WaveletCell& cell) const;

@@ -55,8 +55,9 @@ std::vector<double> SideLines(const WaveletFace& face, const WaveletSelection& s
     int at[4];
     face.Extent(cell, at);
     const bool on = side == 0 ? at[2] == 0
-                              : side == 1 ? at[1] == last[0]
-                                          : side == 2 ? at[3] == last[1] : at[0] == 0;
+      : side == 1             ? at[1] == last[0]
+      : side == 2             ? at[3] == last[1]
+                              : at[0] == 0;
     if (on)
     {
       lines.push_back(at[2 * d]);
@@ -215,7 +216,8 @@ std::vector<std::vector<LoopVertex>> WaveletModel::Loops(
   return out;
 }
 
-// Appends a trim curve's vertices in the loop's direction; its first one replaces the last there is.
+// Appends a trim curve's vertices in the loop's direction; its first one replaces the last there
+// is.
 void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
   const WaveletSelection& selection, std::vector<LoopVertex>& loop) const
 {
@@ -255,7 +257,8 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
     const auto haarRange = [&](int i, int next) {
       const int last = int(use.UV.size()) - 1;
       const int low = (std::min(i, next) - 1) * (1 << level);
-      return RangeOf(face, use.UV, std::clamp(low, 0, last), std::clamp(low + (2 << level), 0, last));
+      return RangeOf(
+        face, use.UV, std::clamp(low, 0, last), std::clamp(low + (2 << level), 0, last));
     };
     for (int k = 0; k < n; ++k)
     {
@@ -293,17 +296,15 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
 }
 
 // A pole has one point, but as many parameters as the cells along it have corners.
-void WaveletModel::AppendPole(std::int64_t index, std::int64_t f,
-  const WaveletSelection& selection, std::vector<LoopVertex>& part) const
+void WaveletModel::AppendPole(std::int64_t index, std::int64_t f, const WaveletSelection& selection,
+  std::vector<LoopVertex>& part) const
 {
   const Model& data = this->Data.Data;
   const WaveletFace& face = *this->Faces[f];
   const TrimCurve& curve = data.TrimCurves[index];
   const Interval domain = curve.Geometry.Domain();
-  const Vec2 a =
-    face.Snap(Evaluate(curve.Geometry, curve.Reversed ? domain.Max : domain.Min));
-  const Vec2 b =
-    face.Snap(Evaluate(curve.Geometry, curve.Reversed ? domain.Min : domain.Max));
+  const Vec2 a = face.Snap(Evaluate(curve.Geometry, curve.Reversed ? domain.Max : domain.Min));
+  const Vec2 b = face.Snap(Evaluate(curve.Geometry, curve.Reversed ? domain.Min : domain.Max));
   if (AreNear(face, a, b, ShortPole))
   {
     return;
@@ -340,8 +341,7 @@ void WaveletModel::AppendPole(std::int64_t index, std::int64_t f,
   part.push_back(v);
 }
 
-FaceMeshJob WaveletModel::Job(
-  std::int64_t f, const WaveletSelection& selection, double limit) const
+FaceMeshJob WaveletModel::Job(std::int64_t f, const WaveletSelection& selection, double limit) const
 {
   const WaveletFace& face = *this->Faces[f];
   const int level = selection.Level[f];
@@ -381,9 +381,9 @@ FaceMeshJob WaveletModel::Job(
     for (int i = 0; i + 1 < int(job.Lines[0].size()); ++i)
     {
       const WaveletCell cell{ level, i, j };
-      job.Leaves.push_back({ i, i + 1, j, j + 1, cell,
-        job.OnSurface ? face.FineError() + face.Deviation(cell) : error,
-        job.OnSurface ? withVertices(cell) : 2.0 * error });
+      job.Leaves.push_back(
+        { i, i + 1, j, j + 1, cell, job.OnSurface ? face.FineError() + face.Deviation(cell) : error,
+          job.OnSurface ? withVertices(cell) : 2.0 * error });
     }
   }
   return job;

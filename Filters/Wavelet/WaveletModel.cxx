@@ -12,14 +12,14 @@ namespace nurbs
 
 namespace
 {
-constexpr double SameSide = 1e-7;   // Of the model: sides that coincide.
-constexpr double ShortEdge = 0.01;  // Of the finest tolerance: edges that are one point.
-constexpr double EdgeShare = 0.5;   // Of a tolerance, for the edges' chords.
-constexpr int MaximumRounds = 16;   // Of refinement where a mesh errs more than asked for.
-constexpr int DiagonalSamples = 9;  // A face and direction.
+constexpr double SameSide = 1e-7;  // Of the model: sides that coincide.
+constexpr double ShortEdge = 0.01; // Of the finest tolerance: edges that are one point.
+constexpr double EdgeShare = 0.5;  // Of a tolerance, for the edges' chords.
+constexpr int MaximumRounds = 16;  // Of refinement where a mesh errs more than asked for.
+constexpr int DiagonalSamples = 9; // A face and direction.
 constexpr int BudgetTries = 10;
 constexpr double NegligibleThreshold = 1e-12; // Of the largest coefficient.
-constexpr double BudgetUsed = 0.97; // A budget that is used so far will do.
+constexpr double BudgetUsed = 0.97;           // A budget that is used so far will do.
 
 double Diagonal(const Model& model, const std::vector<std::string>& faceErrors)
 {
@@ -35,8 +35,8 @@ double Diagonal(const Model& model, const std::vector<std::string>& faceErrors)
 }
 } // namespace
 
-double SampledDiagonal(const Model& model, const std::vector<std::string>& faceErrors,
-  const ParallelFor& parallel)
+double SampledDiagonal(
+  const Model& model, const std::vector<std::string>& faceErrors, const ParallelFor& parallel)
 {
   std::vector<Box3> boxes(model.Faces.size());
   parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
@@ -81,8 +81,8 @@ double SampledDiagonal(const Model& model, const std::vector<std::string>& faceE
   return all.isEmpty() ? 0.0 : all.diagonal().norm();
 }
 
-WaveletModel::WaveletModel(const Model& model, const std::vector<std::string>& faceErrors,
-  const WaveletOptions& options)
+WaveletModel::WaveletModel(
+  const Model& model, const std::vector<std::string>& faceErrors, const WaveletOptions& options)
   : Options(options)
   , Errors(faceErrors)
 {
@@ -297,9 +297,9 @@ WaveletSelection WaveletModel::SelectLevels(const std::vector<int>& levels) cons
     int level = edge->Axis().Depth;
     for (const WaveletEdgeUse& use : edge->Uses())
     {
-      level = std::min(level, levels[use.Where.Face]);
+      level = use.Side < 0 ? std::min(level, levels[use.Where.Face]) : level;
     }
-    out.SetEdgeLevel(e, *edge, level);
+    out.SetEdgeLevel(e, *edge, edge->LevelOfSides(levels, level));
   }
   return out;
 }
@@ -391,9 +391,8 @@ WaveletSelection WaveletModel::SelectThreshold(double threshold) const
     out.SetEdgeLevel(e, *edge, level);
     if (this->Options.Kind != Wavelet::Haar)
     {
-      out.RefineEdge(e, [&](int first, int last) {
-        return edge->LargestCoefficient(first, last) > threshold;
-      });
+      out.RefineEdge(
+        e, [&](int first, int last) { return edge->LargestCoefficient(first, last) > threshold; });
     }
   }
   return out;
@@ -462,8 +461,8 @@ double WaveletModel::LargestThreshold() const
   return 1.001 * largest;
 }
 
-// Meshes all faces; where errors exceed the limit, cells and segments are refined and what they touch
-// is meshed again.
+// Meshes all faces; where errors exceed the limit, cells and segments are refined and what they
+// touch is meshed again.
 WaveletMeshes WaveletModel::Mesh(WaveletSelection& selection, double limit) const
 {
   WaveletMeshes out;

@@ -25,8 +25,8 @@ struct WaveletOptions
 };
 
 /// Length of the diagonal of the box around points of all faces, within the boxes of their loops.
-double SampledDiagonal(const Model& model, const std::vector<std::string>& faceErrors,
-  const ParallelFor& parallel);
+double SampledDiagonal(
+  const Model& model, const std::vector<std::string>& faceErrors, const ParallelFor& parallel);
 
 /// Meshes of all faces.
 struct WaveletMeshes
@@ -37,9 +37,9 @@ struct WaveletMeshes
   bool Aborted = false;
 };
 
-/// A model's pyramids. Edges have pyramids of their own; all faces that use an edge take its points bit
-/// for bit, so that neighbours fit at every level, and at different ones. Results do not depend on the
-/// number of threads.
+/// A model's pyramids. Edges have pyramids of their own; all faces that use an edge take its points
+/// bit for bit, so that neighbours fit at every level, and at different ones. Results do not depend
+/// on the number of threads.
 class WaveletModel
 {
 public:
@@ -48,8 +48,8 @@ public:
   /// @param faceErrors one string a face: "" or why it can't be used (it comes out as Failed).
   /// The model's views must stay valid. Throws Error unless the finest tolerance is positive and
   /// finite.
-  WaveletModel(const Model& model, const std::vector<std::string>& faceErrors,
-    const WaveletOptions& options);
+  WaveletModel(
+    const Model& model, const std::vector<std::string>& faceErrors, const WaveletOptions& options);
 
   /// Replaces what is called meanwhile; see WaveletOptions.
   void SetProgress(std::function<bool(double)> progress) { this->Options.Progress = progress; }
@@ -64,10 +64,10 @@ public:
 
   /// Every face and edge on this level, or on its coarsest if that is finer.
   WaveletMeshes Level(int level) const;
-  /// One level a face; an edge has the finest of its faces'.
+  /// One level a face; an edge is as fine as the finest of its faces..
   WaveletMeshes MixedLevels(const std::vector<int>& levels) const;
-  /// As coarse as cells, segments (Interpolating) or whole faces (other wavelets) can be for errors up
-  /// to `tolerance` > 0. Faces that can't be so exact are Capped.
+  /// As coarse as cells, segments (Interpolating) or whole faces (other wavelets) can be for errors
+  /// up to `tolerance` > 0. Faces that can't be so exact are Capped.
   WaveletMeshes MaximumError(double tolerance) const;
   /// The smallest threshold for which the mesh that has all coefficients above it keeps within
   /// `triangles`; the coarsest mesh if none does.
@@ -83,7 +83,8 @@ private:
   WaveletMeshes Mesh(WaveletSelection& selection, double limit) const;
   void ShareLines(WaveletSelection& selection) const;
   void Uncross(WaveletSelection& selection) const;
-  std::vector<std::vector<LoopVertex>> Loops(std::int64_t face, const WaveletSelection& selection) const;
+  std::vector<std::vector<LoopVertex>> Loops(
+    std::int64_t face, const WaveletSelection& selection) const;
   void AppendCurve(std::int64_t curve, std::int64_t face, const WaveletSelection& selection,
     std::vector<LoopVertex>& loop) const;
   void AppendPole(std::int64_t curve, std::int64_t face, const WaveletSelection& selection,

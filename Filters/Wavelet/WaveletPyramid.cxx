@@ -60,8 +60,8 @@ std::vector<Place> PlacesOf(const std::vector<double>& lines, const std::vector<
     {
       ++k;
     }
-    out.push_back(last == 0 ? Place{ 0, 0.0 }
-                            : Place{ k, (t - lines[k]) / (lines[k + 1] - lines[k]) });
+    out.push_back(
+      last == 0 ? Place{ 0, 0.0 } : Place{ k, (t - lines[k]) / (lines[k + 1] - lines[k]) });
   }
   return out;
 }
@@ -160,8 +160,8 @@ std::vector<Vec3> WaveletPyramid::Refine(int level, const std::vector<Vec3>& coa
 {
   const GridStep step = this->Step(level);
   std::vector<Vec3> fine(std::size_t(step.FineSamples(0)) * step.FineSamples(1));
-  SynthesiseGrid<double, 3>(step, coarse[0].data(), this->Packed[0].data(),
-    this->Step(0).FineSamples(0), fine[0].data());
+  SynthesiseGrid<double, 3>(
+    step, coarse[0].data(), this->Packed[0].data(), this->Step(0).FineSamples(0), fine[0].data());
   return fine;
 }
 

@@ -44,10 +44,9 @@ class WaveletPyramid
 {
 public:
   WaveletPyramid() = default;
-  /// Analyses the finest grid's samples, u fastest, at the parameters of the axes' level 0. For a curve
-  /// `v` has a single break.
-  WaveletPyramid(
-    Wavelet kind, const DyadicAxis& u, const DyadicAxis& v, std::vector<Vec3> samples);
+  /// Analyses the finest grid's samples, u fastest, at the parameters of the axes' level 0. For a
+  /// curve `v` has a single break.
+  WaveletPyramid(Wavelet kind, const DyadicAxis& u, const DyadicAxis& v, std::vector<Vec3> samples);
 
   /// Levels, at least 1.
   int Levels() const { return this->Count; }

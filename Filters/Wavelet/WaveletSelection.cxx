@@ -52,7 +52,8 @@ SplitCell CellErrorOver(const WaveletFace& face, double tolerance)
     const auto x = [&](int i, int j) -> const Vec3& { return (*samples)[i + j * width]; };
     const double twist =
       (x(at[0], at[2]) - x(at[1], at[2]) - x(at[0], at[3]) + x(at[1], at[3])).norm();
-    // Neighbours may be finer and put vertices on its sides; else that would be one after the other.
+    // Neighbours may be finer and put vertices on its sides; else that would be one after the
+    // other.
     const double through = 2.0 * face.FineError() +
       std::min(face.Spread(cell), 2.0 * face.Deviation(cell)) + 0.25 * twist;
     if (through <= tolerance)

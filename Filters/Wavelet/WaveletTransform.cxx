@@ -33,8 +33,8 @@ void Unpredict(const Real* a, const Real* b, const Real* detail, std::int64_t n,
 
 // even + sign (before + after) / 4
 template <typename Real>
-void Update(Real sign, const Real* before, const Real* after, const Real* even, std::int64_t n,
-  Real* out)
+void Update(
+  Real sign, const Real* before, const Real* after, const Real* even, std::int64_t n, Real* out)
 {
   for (std::int64_t i = 0; i < n; ++i)
   {
@@ -86,8 +86,8 @@ void AnalyseLine(Wavelet kind, bool update, int n, const Real* line, Real* out)
 
 // The inverse. `even` has room for half + 1 samples.
 template <typename Real, int N>
-void SynthesiseLine(Wavelet kind, bool update, int n, const Real* coarse, const Real* details,
-  Real* even, Real* line)
+void SynthesiseLine(
+  Wavelet kind, bool update, int n, const Real* coarse, const Real* details, Real* even, Real* line)
 {
   const int half = n / 2;
   if (kind == Wavelet::Haar)
@@ -135,9 +135,8 @@ struct Columns
 };
 
 template <typename Real, int N>
-void UpdateRow(
-  const Columns& columns, Real sign, const Real* before, const Real* after, const Real* even,
-  Real* out)
+void UpdateRow(const Columns& columns, Real sign, const Real* before, const Real* after,
+  const Real* even, Real* out)
 {
   const std::int64_t last = columns.Last;
   std::copy_n(even, N, out);
@@ -196,8 +195,7 @@ void AnalyseGrid(const GridStep& step, Real* grid, std::int64_t pitch)
     Predict(from(2 * k), from(2 * k + 2), from(2 * k + 1), width, to(coarse + k));
     if (k > 0 && kind == Wavelet::Lifted)
     {
-      UpdateRow<Real, N>(
-        columns, Real(1), to(coarse + k - 1), to(coarse + k), from(2 * k), to(k));
+      UpdateRow<Real, N>(columns, Real(1), to(coarse + k - 1), to(coarse + k), from(2 * k), to(k));
     }
     else
     {
@@ -207,8 +205,8 @@ void AnalyseGrid(const GridStep& step, Real* grid, std::int64_t pitch)
 }
 
 template <typename Real, int N>
-void SynthesiseGrid(const GridStep& step, const Real* coarse, const Real* details,
-  std::int64_t pitch, Real* fine)
+void SynthesiseGrid(
+  const GridStep& step, const Real* coarse, const Real* details, std::int64_t pitch, Real* fine)
 {
   const Wavelet kind = step.Kind;
   const int rows = step.FineSamples(1);

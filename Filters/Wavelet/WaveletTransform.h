@@ -3,16 +3,17 @@
 /// @brief One step of a wavelet transform of a grid of samples: rows, then columns.
 ///
 /// Source: D. Tan, G. Zhao, H. Lu, "GPU based evaluation and LOD rendering of NURBS surfaces",
-/// Computer-Aided Design & Applications 9 (2012), section 4.3. Both directions follow one rule that is
-/// ours: the first and the last sample of a line pass through every step unchanged. So corners stay
-/// where they are, and a grid's border is transformed as a curve of its own, whatever lies inside:
-/// surfaces that have a border in common have it in common at every level. Why and how:
+/// Computer-Aided Design & Applications 9 (2012), section 4.3. Both directions follow one rule that
+/// is ours: the first and the last sample of a line pass through every step unchanged. So corners
+/// stay where they are, and a grid's border is transformed as a curve of its own, whatever lies
+/// inside: surfaces that have a border in common have it in common at every level. Why and how:
 /// Documentation/Papers/tan-2012-wavelets.md.
 ///
 /// A step halves the number n of intervals of a line, which must be even:
 ///
 ///     Interpolating, Lifted: n + 1 samples, at the ends of the intervals
-///     Haar:                  n + 2 samples, the first end, the middles of the intervals, the last end
+///     Haar:                  n + 2 samples, the first end, the middles of the intervals, the last
+///     end
 ///
 /// and leaves the samples of the coarse line first, behind them n / 2 details.
 #pragma once
@@ -29,8 +30,8 @@ enum class Wavelet : unsigned char
   Haar,
   /// The 5/3 wavelet's prediction alone: coarse samples are every second fine sample.
   Interpolating,
-  /// The 5/3 wavelet with its update: coarse samples inside the grid keep the mean of the fine ones.
-  /// Its lines along the border are predicted only, so that they stay on the border.
+  /// The 5/3 wavelet with its update: coarse samples inside the grid keep the mean of the fine
+  /// ones. Its lines along the border are predicted only, so that they stay on the border.
   Lifted
 };
 
@@ -44,8 +45,8 @@ inline int LineSamples(Wavelet wavelet, int intervals)
 struct GridStep
 {
   Wavelet Kind = Wavelet::Interpolating;
-  int Intervals[2] = { 0, 0 };        ///< Of the fine grid, u then v; 0 of v: a curve, one row.
-  bool Halved[2] = { false, false };  ///< The directions that the step halves; even intervals there.
+  int Intervals[2] = { 0, 0 };       ///< Of the fine grid, u then v; 0 of v: a curve, one row.
+  bool Halved[2] = { false, false }; ///< The directions that the step halves; even intervals there.
 
   int FineSamples(int dir) const { return this->Samples(this->Intervals[dir]); }
   int CoarseIntervals(int dir) const
@@ -61,8 +62,8 @@ private:
   }
 };
 
-/// Analysis in place: the fine grid's samples, u fastest, become those of the coarse grid (the first
-/// CoarseSamples of rows and columns) and details (the rest).
+/// Analysis in place: the fine grid's samples, u fastest, become those of the coarse grid (the
+/// first CoarseSamples of rows and columns) and details (the rest).
 /// @param grid rows of `pitch` samples of N values; N is 3 (float or double) or 4 (float).
 template <typename Real, int N>
 void AnalyseGrid(const GridStep& step, Real* grid, std::int64_t pitch);
@@ -72,7 +73,7 @@ void AnalyseGrid(const GridStep& step, Real* grid, std::int64_t pitch);
 /// @param details what AnalyseGrid left, with its pitch; the coarse samples in it are not read.
 /// @param fine receives rows of FineSamples(0) samples, close-packed.
 template <typename Real, int N>
-void SynthesiseGrid(const GridStep& step, const Real* coarse, const Real* details,
-  std::int64_t pitch, Real* fine);
+void SynthesiseGrid(
+  const GridStep& step, const Real* coarse, const Real* details, std::int64_t pitch, Real* fine);
 
 } // namespace nurbs

@@ -137,8 +137,8 @@ ZoneTriangles TriangulateZone(const Zone& zone)
     stack.pop_back();
     if (f->info() == 2)
     {
-      out.Triangles.push_back({ f->vertex(0)->info().Value, f->vertex(1)->info().Value,
-        f->vertex(2)->info().Value });
+      out.Triangles.push_back(
+        { f->vertex(0)->info().Value, f->vertex(1)->info().Value, f->vertex(2)->info().Value });
     }
     for (int i = 0; i < 3; ++i)
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ZoneTriangulation.h
-/// @brief Constrained Delaunay triangulation of what lies between a grid's cells and trim polylines.
+/// @brief Constrained Delaunay triangulation between a grid's cells and trim polylines.
 #pragma once
 
 #include "Types.h"

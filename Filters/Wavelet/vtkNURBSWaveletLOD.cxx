@@ -66,9 +66,9 @@ int vtkNURBSWaveletLOD::RequestDataObject(
   return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
 }
 
-// Runs `work(progress)` in another thread, whichever threads it is spread over there, so that observers
-// of the progress run in this one, are called while it lasts, and can abort it. Progress goes from
-// `from` to `to`.
+// Runs `work(progress)` in another thread, whichever threads it is spread over there, so that
+// observers of the progress run in this one, are called while it lasts, and can abort it. Progress
+// goes from `from` to `to`.
 template <typename Work>
 static void RunWithProgress(
   vtkAlgorithm* self, bool quick, double from, double to, const Work& work)
@@ -116,6 +116,7 @@ bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
   {
     return true;
   }
+  const double start = Now();
   this->Kept.reset();
   auto work = std::make_unique<Pyramids>();
   const std::string problem = work->Pool.Collect(input);
@@ -131,13 +132,14 @@ bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
   const bool quick = work->Pool.Model.Faces.size() <= QuickFaces;
   RunWithProgress(this, quick, 0.0, 0.6, [&](std::function<bool(double)> progress) {
     options.Progress = progress;
-    work->Model = std::make_unique<nurbs::WaveletModel>(
-      work->Pool.Model, work->Pool.FaceErrors, options);
+    work->Model =
+      std::make_unique<nurbs::WaveletModel>(work->Pool.Model, work->Pool.FaceErrors, options);
   });
   work->Model->SetProgress(nullptr);
   options.Progress = nullptr;
   work->Options = options;
   this->Kept = std::move(work);
+  this->AnalyseSeconds = Now() - start;
   return true;
 }
 
@@ -202,8 +204,7 @@ void vtkNURBSWaveletLOD::Summarize(const Meshes& meshes)
       {
         continue;
       }
-      named << "\n  face "
-            << vtkNURBSModel::GetFaceId(leaf.Grid, vtkIdType(f - leaf.FirstFace))
+      named << "\n  face " << vtkNURBSModel::GetFaceId(leaf.Grid, vtkIdType(f - leaf.FirstFace))
             << (mesh.Status == nurbs::WaveletStatus::Failed ? " failed: " : " capped: ")
             << mesh.Message;
     }
@@ -240,13 +241,11 @@ int vtkNURBSWaveletLOD::RequestData(
   Meshes meshes;
   try
   {
-    const Pyramids* before = this->Kept.get();
     if (!this->Analyse(input))
     {
       this->SetErrorCode(vtkErrorCode::UserError);
       return 0;
     }
-    this->AnalyseSeconds = this->Kept.get() == before ? 0.0 : Now() - start;
     if (this->Kept->Model->IsAborted())
     {
       this->Kept.reset();
@@ -289,8 +288,8 @@ void vtkNURBSWaveletLOD::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wavelet: " << wavelets[this->Wavelet] << "\n";
   os << indent << "Mode: " << modes[this->Mode] << "\n";
   os << indent << "Level: " << this->Level << "\n";
-  os << indent
-     << "ToleranceMode: " << (this->ToleranceMode == ABSOLUTE ? "absolute" : "relative") << "\n";
+  os << indent << "ToleranceMode: " << (this->ToleranceMode == ABSOLUTE ? "absolute" : "relative")
+     << "\n";
   os << indent << "MaximumError: " << this->MaximumError << "\n";
   os << indent << "TriangleBudget: " << this->TriangleBudget << "\n";
   os << indent << "FinestTolerance: " << this->FinestTolerance << "\n";

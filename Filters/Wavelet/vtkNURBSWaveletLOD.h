@@ -4,25 +4,25 @@
  * @brief Evaluates trimmed NURBS models once and meshes them at any level of detail, by wavelets.
  *
  * Every surface is evaluated on a dyadic grid over the box of its trimming loops, as fine as
- * FinestTolerance asks for, and analysed, rows first and then columns, into a pyramid of averages and
- * details; edges are analysed as curves of their own. From then on a change of Mode, Level,
+ * FinestTolerance asks for, and analysed, rows first and then columns, into a pyramid of averages
+ * and details; edges are analysed as curves of their own. From then on a change of Mode, Level,
  * MaximumError or TriangleBudget needs no evaluation of surfaces but at the vertices of edges: the
  * pyramids are kept until the input or the options of the analysis change.
  *
- * Faces that share an edge have its points bit for bit, at every level and where their levels differ,
- * so that closed models have no open edge. Faces without loops share those sides that coincide.
- * Trimmed faces keep the cells that their loops leave whole; what is between these and the polylines of
- * the loops is triangulated. Where coarse polylines of a face would cross each other their edges become
- * finer.
+ * Faces that share an edge have its points bit for bit, at every level and where their levels
+ * differ, so that closed models have no open edge. Faces without loops share those sides that
+ * coincide. Trimmed faces keep the cells that their loops leave whole; what is between these and
+ * the polylines of the loops is triangulated. Where coarse polylines of a face would cross each
+ * other their edges become finer.
  *
  * | wavelet | coarse samples | modes |
  * |---|---|---|
- * | INTERPOLATING | fine samples, on the surface (5/3, prediction alone) | cells adapt within a face |
+ * | INTERPOLATING | fine samples, on the surface (5/3, predicted) | cells adapt within a face |
  * | LIFTED | keep the mean of the fine ones (5/3); corners and borders stay | one level a face |
- * | HAAR | means, as in the paper; corners stay, borders are curves of their own | one level a face |
+ * | HAAR | means, as in the paper; corners stay, borders are curves | one level a face |
  *
- * The input is a model of vtkNURBSModel or a composite data set of models. The output is a vtkPolyData
- * of triangles, or a composite of the input's type and structure:
+ * The input is a model of vtkNURBSModel or a composite data set of models. The output is a
+ * vtkPolyData of triangles, or a composite of the input's type and structure:
  *
  * | where | array | meaning |
  * |---|---|---|
@@ -32,23 +32,23 @@
  * | cell data | FaceId and all other attributes of the model's faces | of the triangle's face |
  * | field data | FaceIds (1 a face) | identity of the faces that the next arrays tell of |
  * | field data | FaceErrorBound (double) | bound of the distance between triangles and face |
- * | field data | FaceLevel, FaceNumberOfLevels (int) | finest level in the mesh, and how many there are |
+ * | field data | FaceLevel, FaceNumberOfLevels (int) | finest level in the mesh, number of levels |
  * | field data | FaceLevelErrorBounds (double, NumberOfLevels) | of the whole grid of each level |
  * | field data | FaceStatus (unsigned char) | 0 ok, 1 repaired, 2 capped, 3 failed |
  * | field data | FaceStatusMessage (string) | why the status is not 0 |
- * | field data | ErrorBound, Threshold (double), NumberOfTriangles, NumberOfLevels | of this model |
+ * | field data | ErrorBound, Threshold (double), NumberOfTriangles, NumberOfLevels | of all |
  *
- * The bound compares mesh and surface at equal parameters, so it is larger than the distance where a
- * parametrisation is uneven. Of edges that have no 3D curve and do not run along a side of a surface,
- * the finest polyline's own distance is sampled, not bounded.
+ * The bound compares mesh and surface at equal parameters, so it is larger than the distance where
+ * a parametrisation is uneven. Of edges that have no 3D curve and do not run along a side of a
+ * surface, the finest polyline's own distance is sampled, not bounded.
  *
- * Faces that failed or were capped are named in one warning. An input without NURBS arrays is an error.
- * Work is spread by vtkSMPTools, the result does not depend on the number of threads. Reports progress
- * and obeys AbortExecute, which leaves the output empty.
+ * Faces that failed or were capped are named in one warning. An input without NURBS arrays is an
+ * error. Work is spread by vtkSMPTools, the result does not depend on the number of threads.
+ * Reports progress and obeys AbortExecute, which leaves the output empty.
  *
  * Source: D. Tan, G. Zhao, H. Lu, "GPU based evaluation and LOD rendering of NURBS surfaces",
- * Computer-Aided Design & Applications 9 (2012), section 4.3. What is done differently and why is told
- * in Documentation/Papers/tan-2012-wavelets.md.
+ * Computer-Aided Design & Applications 9 (2012), section 4.3. What is done differently and why is
+ * told in Documentation/Papers/tan-2012-wavelets.md.
  *
  * @sa vtkNURBSModel, vtkNURBSTessellator
  */
@@ -94,8 +94,8 @@ public:
 
   ///@{
   /**
-   * Which mesh is made: that of a Level (default), the coarsest within MaximumError, or the one with
-   * the largest coefficients that keeps within TriangleBudget.
+   * Which mesh is made: that of a Level (default), the coarsest within MaximumError, or the one
+   * with the largest coefficients that keeps within TriangleBudget.
    */
   vtkSetClampMacro(Mode, int, LEVEL, TRIANGLE_BUDGET);
   vtkGetMacro(Mode, int);
@@ -121,8 +121,8 @@ public:
 
   ///@{
   /**
-   * What MaximumError and FinestTolerance are measured in: the diagonal of the box around points of all
-   * surfaces of the input (RELATIVE, default), or units of length (ABSOLUTE).
+   * What MaximumError and FinestTolerance are measured in: the diagonal of the box around points of
+   * all surfaces of the input (RELATIVE, default), or units of length (ABSOLUTE).
    */
   vtkSetClampMacro(ToleranceMode, int, RELATIVE, ABSOLUTE);
   vtkGetMacro(ToleranceMode, int);
@@ -132,8 +132,8 @@ public:
 
   ///@{
   /**
-   * In MAXIMUM_ERROR mode: the largest bound of the distance between triangles and surfaces. Default
-   * 1e-3; must be positive.
+   * In MAXIMUM_ERROR mode: the largest bound of the distance between triangles and surfaces.
+   * Default 1e-3; must be positive.
    */
   vtkSetMacro(MaximumError, double);
   vtkGetMacro(MaximumError, double);
@@ -158,8 +158,8 @@ public:
 
   ///@{
   /**
-   * The largest number of samples of one face; a face that needs more has a finest grid with a larger
-   * error, which is told. Default 1,048,576, at least 16.
+   * The largest number of samples of one face; a face that needs more has a finest grid with a
+   * larger error, which is told. Default 1,048,576, at least 16.
    */
   vtkSetClampMacro(MaximumSamples, vtkIdType, 16, VTK_INT_MAX);
   vtkGetMacro(MaximumSamples, vtkIdType);
@@ -176,10 +176,10 @@ public:
 
   ///@{
   /**
-   * What the last Update made of all models together: levels of the face that has most; triangles and
-   * points; the largest bound of an error, in units of length; samples in the pyramids; faces by
-   * status; seconds of evaluation and analysis (0 if the pyramids were still there), and of meshing
-   * and filling the output. All are 0 before the first Update and after an error.
+   * What the last Update made of all models together: levels of the face that has most; triangles
+   * and points; the largest bound of an error, in units of length; samples in the pyramids; faces
+   * by status; seconds of evaluation and analysis (0 if the pyramids were still there), and of
+   * meshing and filling the output. All are 0 before the first Update and after an error.
    */
   vtkGetMacro(NumberOfLevels, int);
   vtkGetMacro(NumberOfTriangles, vtkIdType);

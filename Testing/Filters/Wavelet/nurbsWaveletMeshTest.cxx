@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulations that meshes are made of: cells with neighbours' vertices, and zones between cells
-// and loops, by their areas and edges.
+// The triangulations that meshes are made of: cells with neighbours' vertices, and zones between
+// cells and loops, by their areas and edges.
 #include "RectangleTriangulation.h"
 #include "ZoneTriangulation.h"
 

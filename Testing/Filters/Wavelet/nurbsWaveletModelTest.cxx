@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels, error bounds and budgets of whole models: where meshes are open, how far they are from the
-// surfaces by dense samples, how many triangles they have.
+// Levels, error bounds and budgets of whole models: where meshes are open, how far they are from
+// the surfaces by dense samples, how many triangles they have.
 #include "nurbsWaveletShapes.h"
 
 #include <gtest/gtest.h>
@@ -239,8 +239,7 @@ TEST(nurbsWaveletModel, MaximumErrorIsKept)
 TEST(nurbsWaveletModel, HaarTellsThatItRoundsCreases)
 {
   const Subject subject = Prism();
-  const WaveletMeshes meshes =
-    subject.Analyse(Wavelet::Haar, 0.002).MaximumError(0.02);
+  const WaveletMeshes meshes = subject.Analyse(Wavelet::Haar, 0.002).MaximumError(0.02);
   ExpectClosed(meshes);
   const double measured =
     shapes::Measure(meshes.Faces[0], subject.Assembled.Model.Faces[0].Geometry);

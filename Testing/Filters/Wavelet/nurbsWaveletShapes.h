@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed and trimmed models for the tests of wavelet levels of detail, and what is asked of their meshes.
+// Closed and trimmed models for the tests of wavelet levels of detail, and what is asked of their
+// meshes.
 #ifndef nurbsWaveletShapes_h
 #define nurbsWaveletShapes_h
 
@@ -22,8 +23,8 @@ using nurbs::Vec3;
 /// A rational circle of nine points in a plane, as weights and points.
 inline void Circle(std::vector<Vec2>& points, std::vector<double>& weights)
 {
-  const int sign[9][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 }, { -1, 0 }, { -1, -1 }, { 0, -1 },
-    { 1, -1 }, { 1, 0 } };
+  const int sign[9][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 }, { -1, 0 }, { -1, -1 },
+    { 0, -1 }, { 1, -1 }, { 1, 0 } };
   for (int k = 0; k < 9; ++k)
   {
     points.emplace_back(sign[k][0], sign[k][1]);
@@ -56,8 +57,8 @@ inline void AddTorus(ModelBuilder& builder, double radius, double tube)
   builder.BeginFace(s.View(), nurbs::FaceAttributes());
 }
 
-/// The six bicubic patches of a dented ball. With `loops` they name their edges; else their sides only
-/// coincide, and some patches run over other parameters, the other way around.
+/// The six bicubic patches of a dented ball. With `loops` they name their edges; else their sides
+/// only coincide, and some patches run over other parameters, the other way around.
 inline void AddBall(ModelBuilder& builder, bool loops)
 {
   nurbs::PatchStitcher stitcher(builder, 1e-12);
@@ -225,9 +226,9 @@ using Place = std::array<double, 3>;
 /// triangles that run along them one way count 1, the other way -1.
 struct EdgeCounts
 {
-  std::size_t Open = 0;    ///< One triangle has it.
-  std::size_t Turned = 0;  ///< Two have it, the same way around.
-  std::size_t Inside = 0;  ///< Open, and on no side of [0, 10] x [0, 10] (AddHoles).
+  std::size_t Open = 0;   ///< One triangle has it.
+  std::size_t Turned = 0; ///< Two have it, the same way around.
+  std::size_t Inside = 0; ///< Open, and on no side of [0, 10] x [0, 10] (AddHoles).
 };
 
 inline EdgeCounts CountEdges(const nurbs::WaveletMeshes& meshes)
@@ -274,8 +275,8 @@ inline EdgeCounts CountEdges(const nurbs::WaveletMeshes& meshes)
   return out;
 }
 
-/// The largest distance between points of the triangles and of the surface at the same parameters, by
-/// dense samples; no smaller than the distance itself.
+/// The largest distance between points of the triangles and of the surface at the same parameters,
+/// by dense samples; no smaller than the distance itself.
 inline double Measure(const nurbs::WaveletMesh& mesh, const nurbs::SurfaceView& surface)
 {
   constexpr int n = 6;

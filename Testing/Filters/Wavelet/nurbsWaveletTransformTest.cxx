@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wavelet transforms against the formulas of Tan, Zhao, Lu 2012, section 4.3, and of the 5/3 wavelet
-// written out for one line; perfect reconstruction; borders that do not depend on what lies inside.
+// The wavelet transforms against the formulas of Tan, Zhao, Lu 2012, section 4.3, and of the 5/3
+// wavelet written out for one line; perfect reconstruction; borders that do not depend on what lies
+// inside.
 #include "WaveletPyramid.h"
 
 #include <gtest/gtest.h>
@@ -126,8 +127,8 @@ TEST(nurbsWaveletTransform, GridIsTransformedAsTheFormulasSay)
   }
 }
 
-// Equation (12) and (13): inside, a coarse sample is the mean of four, and the details are the three
-// differences of rows, columns and diagonals.
+// Equation (12) and (13): inside, a coarse sample is the mean of four, and the details are the
+// three differences of rows, columns and diagonals.
 TEST(nurbsWaveletTransform, HaarIsThePapers)
 {
   GridStep step;
@@ -246,7 +247,8 @@ TEST(nurbsWaveletTransform, BordersAreCurvesOfTheirOwn)
   }
 }
 
-// What the update is for: the mean of the samples inside stays the same, but for the border's share.
+// What the update is for: the mean of the samples inside stays the same, but for the border's
+// share.
 TEST(nurbsWaveletTransform, UpdateKeepsTheMean)
 {
   const DyadicAxis u = Axis(1, 6);
