@@ -42,6 +42,16 @@ void Update(
   }
 }
 
+// One sample.
+template <typename Real, int N>
+void CopySample(const Real* from, Real* to)
+{
+  for (int c = 0; c < N; ++c)
+  {
+    to[c] = from[c];
+  }
+}
+
 // (a + sign b) times scale
 template <typename Real>
 void Combine(Real sign, Real scale, const Real* a, const Real* b, std::int64_t n, Real* out)
@@ -60,24 +70,24 @@ void AnalyseLine(Wavelet kind, bool update, int n, const Real* line, Real* out)
   if (kind == Wavelet::Haar)
   {
     Real* details = out + std::int64_t(half + 2) * N;
-    std::copy_n(line, N, out);
+    CopySample<Real, N>(line, out);
     for (int i = 0; i < half; ++i)
     {
       const Real* x = line + std::int64_t(2 * i + 1) * N;
       Combine(Real(1), Real(0.5), x, x + N, N, out + std::int64_t(i + 1) * N);
       Combine(Real(-1), Real(0.5), x, x + N, N, details + std::int64_t(i) * N);
     }
-    std::copy_n(line + std::int64_t(n + 1) * N, N, out + std::int64_t(half + 1) * N);
+    CopySample<Real, N>(line + std::int64_t(n + 1) * N, out + std::int64_t(half + 1) * N);
     return;
   }
   Real* details = out + std::int64_t(half + 1) * N;
   for (int i = 0; i < half; ++i)
   {
     const Real* x = line + std::int64_t(2 * i) * N;
-    std::copy_n(x, N, out + std::int64_t(i) * N);
+    CopySample<Real, N>(x, out + std::int64_t(i) * N);
     Predict(x, x + 2 * N, x + N, N, details + std::int64_t(i) * N);
   }
-  std::copy_n(line + std::int64_t(n) * N, N, out + std::int64_t(half) * N);
+  CopySample<Real, N>(line + std::int64_t(n) * N, out + std::int64_t(half) * N);
   if (update)
   {
     Update(Real(1), details, details + N, out + N, std::int64_t(half - 1) * N, out + N);
@@ -92,7 +102,7 @@ void SynthesiseLine(
   const int half = n / 2;
   if (kind == Wavelet::Haar)
   {
-    std::copy_n(coarse, N, line);
+    CopySample<Real, N>(coarse, line);
     for (int i = 0; i < half; ++i)
     {
       const Real* a = coarse + std::int64_t(i + 1) * N;
@@ -101,14 +111,14 @@ void SynthesiseLine(
       Combine(Real(1), Real(1), a, d, N, x);
       Combine(Real(-1), Real(1), a, d, N, x + N);
     }
-    std::copy_n(coarse + std::int64_t(half + 1) * N, N, line + std::int64_t(n + 1) * N);
+    CopySample<Real, N>(coarse + std::int64_t(half + 1) * N, line + std::int64_t(n + 1) * N);
     return;
   }
   if (update)
   {
-    std::copy_n(coarse, N, even);
+    CopySample<Real, N>(coarse, even);
     Update(Real(-1), details, details + N, coarse + N, std::int64_t(half - 1) * N, even + N);
-    std::copy_n(coarse + std::int64_t(half) * N, N, even + std::int64_t(half) * N);
+    CopySample<Real, N>(coarse + std::int64_t(half) * N, even + std::int64_t(half) * N);
     coarse = even;
   }
   for (int i = 0; i < half; ++i)
@@ -122,7 +132,7 @@ void SynthesiseLine(
       x[N + c] = d[c] + Real(0.5) * (a[c] + a[N + c]);
     }
   }
-  std::copy_n(coarse + std::int64_t(half) * N, N, line + std::int64_t(n) * N);
+  CopySample<Real, N>(coarse + std::int64_t(half) * N, line + std::int64_t(n) * N);
 }
 
 // Columns are transformed a row at a time: rows are the vectors that the formulas combine. In a row
@@ -139,9 +149,9 @@ void UpdateRow(const Columns& columns, Real sign, const Real* before, const Real
   const Real* even, Real* out)
 {
   const std::int64_t last = columns.Last;
-  std::copy_n(even, N, out);
+  CopySample<Real, N>(even, out);
   Update(sign, before + N, after + N, even + N, last - N, out + N);
-  std::copy_n(even + last, N, out + last);
+  CopySample<Real, N>(even + last, out + last);
   Update(sign, before + last + N, after + last + N, even + last + N, columns.Width - last - N,
     out + last + N);
 }
@@ -288,6 +298,115 @@ void SynthesiseGrid(
   }
 }
 
+namespace
+{
+
+// Coarse samples of a line from its fine ones.
+template <typename Real, int N>
+void CoarsenLine(Wavelet kind, bool update, int n, const Real* fine, Real* coarse)
+{
+  const int half = n / 2;
+  if (kind == Wavelet::Haar)
+  {
+    CopySample<Real, N>(fine, coarse);
+    for (int i = 0; i < half; ++i)
+    {
+      const Real* x = fine + std::int64_t(2 * i + 1) * N;
+      Combine(Real(1), Real(0.5), x, x + N, N, coarse + std::int64_t(i + 1) * N);
+    }
+    CopySample<Real, N>(fine + std::int64_t(n + 1) * N, coarse + std::int64_t(half + 1) * N);
+    return;
+  }
+  for (int i = 0; i <= half; ++i)
+  {
+    const Real* x = fine + std::int64_t(2 * i) * N;
+    Real* out = coarse + std::int64_t(i) * N;
+    if (!update || i == 0 || i == half)
+    {
+      CopySample<Real, N>(x, out);
+      continue;
+    }
+    for (int c = 0; c < N; ++c)
+    {
+      const Real before = x[c - N] - Real(0.5) * (x[c - 2 * N] + x[c]);
+      const Real after = x[c + N] - Real(0.5) * (x[c] + x[c + 2 * N]);
+      out[c] = x[c] + Real(0.25) * (before + after);
+    }
+  }
+}
+
+} // namespace
+
+template <typename Real, int N>
+void CoarsenGrid(const GridStep& step, const Real* fine, Real* coarse)
+{
+  const Wavelet kind = step.Kind;
+  const int rows = step.FineSamples(1);
+  const int last = step.CoarseSamples(1) - 1;
+  const std::int64_t width = std::int64_t(step.FineSamples(0)) * N;
+  const std::int64_t coarseWidth = std::int64_t(step.CoarseSamples(0)) * N;
+  const auto row = [&](int j, Real* out) {
+    const bool update = kind == Wavelet::Lifted && j > 0 && j + 1 < rows;
+    step.Halved[0] ? CoarsenLine<Real, N>(kind, update, step.Intervals[0], fine + j * width, out)
+                   : void(std::copy_n(fine + j * width, width, out));
+  };
+  if (!step.Halved[1])
+  {
+    for (int j = 0; j < rows; ++j)
+    {
+      row(j, coarse + j * coarseWidth);
+    }
+    return;
+  }
+  std::vector<Real> buffer[5]; // Row j is in number j mod 5.
+  for (std::vector<Real>& b : buffer)
+  {
+    b.resize(coarseWidth);
+  }
+  int made = 0; // Rows in the buffers, but for those passed by.
+  const auto get = [&](int j) {
+    for (; made <= j; ++made)
+    {
+      row(made, buffer[made % 5].data());
+    }
+    return buffer[j % 5].data();
+  };
+  for (int k = 0; k <= last; ++k)
+  {
+    Real* out = coarse + k * coarseWidth;
+    if (k == 0 || k == last)
+    {
+      row(k == 0 ? 0 : rows - 1, out);
+    }
+    else if (kind == Wavelet::Haar)
+    {
+      row(2 * k - 1, buffer[0].data());
+      row(2 * k, buffer[1].data());
+      Combine(Real(1), Real(0.5), buffer[0].data(), buffer[1].data(), coarseWidth, out);
+    }
+    else if (kind == Wavelet::Interpolating)
+    {
+      row(2 * k, out);
+    }
+    else
+    {
+      get(2 * k + 2);
+      const Real* x[5];
+      for (int i = 0; i < 5; ++i)
+      {
+        x[i] = buffer[(2 * k - 2 + i) % 5].data();
+      }
+      std::copy_n(x[2], coarseWidth, out); // The border's columns are not updated.
+      for (std::int64_t c = N; c < coarseWidth - N; ++c)
+      {
+        const Real before = x[1][c] - Real(0.5) * (x[0][c] + x[2][c]);
+        const Real after = x[3][c] - Real(0.5) * (x[2][c] + x[4][c]);
+        out[c] = x[2][c] + Real(0.25) * (before + after);
+      }
+    }
+  }
+}
+
 template void AnalyseGrid<double, 3>(const GridStep&, double*, std::int64_t);
 template void AnalyseGrid<float, 3>(const GridStep&, float*, std::int64_t);
 template void AnalyseGrid<float, 4>(const GridStep&, float*, std::int64_t);
@@ -297,5 +416,9 @@ template void SynthesiseGrid<float, 3>(
   const GridStep&, const float*, const float*, std::int64_t, float*);
 template void SynthesiseGrid<float, 4>(
   const GridStep&, const float*, const float*, std::int64_t, float*);
+
+template void CoarsenGrid<double, 3>(const GridStep&, const double*, double*);
+template void CoarsenGrid<float, 3>(const GridStep&, const float*, float*);
+template void CoarsenGrid<float, 4>(const GridStep&, const float*, float*);
 
 } // namespace nurbs

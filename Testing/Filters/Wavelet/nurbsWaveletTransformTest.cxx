@@ -127,6 +127,32 @@ TEST(nurbsWaveletTransform, GridIsTransformedAsTheFormulasSay)
   }
 }
 
+TEST(nurbsWaveletTransform, CoarseSamplesAloneAreTheAnalysis)
+{
+  for (const Wavelet kind : All)
+  {
+    for (int halved = 1; halved < 4; ++halved)
+    {
+      GridStep step;
+      step.Kind = kind;
+      step.Intervals[0] = 12;
+      step.Intervals[1] = 10;
+      step.Halved[0] = (halved & 1) != 0;
+      step.Halved[1] = (halved & 2) != 0;
+      const int width = step.FineSamples(0);
+      std::vector<Vec3> grid = RandomGrid(std::size_t(width) * step.FineSamples(1), 23);
+      const int n = step.CoarseSamples(0);
+      std::vector<Vec3> coarse(std::size_t(n) * step.CoarseSamples(1));
+      nurbs::CoarsenGrid<double, 3>(step, grid[0].data(), coarse[0].data());
+      nurbs::AnalyseGrid<double, 3>(step, grid[0].data(), width);
+      for (int k = 0; k < int(coarse.size()); ++k)
+      {
+        ASSERT_LT((coarse[k] - grid[k % n + k / n * width]).norm(), 1e-15) << int(kind);
+      }
+    }
+  }
+}
+
 // Equation (12) and (13): inside, a coarse sample is the mean of four, and the details are the
 // three differences of rows, columns and diagonals.
 TEST(nurbsWaveletTransform, HaarIsThePapers)
