@@ -78,12 +78,12 @@ function (nurbs_add_kernel name)
 endfunction ()
 
 # nurbs_add_vtk_module(<Namespace::Name> CLASSES <vtkClass>... [SOURCES <.cxx>...] [HEADERS <.h>...]
-#                      [KERNEL <target>...] [LINK <target>...])
+#                      [GENERATED <file>...] [KERNEL <target>...] [LINK <target>...])
 # The VTK module of the current room. CLASSES are vtk*.{h,cxx}; SOURCES further files of the library,
 # HEADERS those of their headers that users may include (installed, not wrapped); KERNEL targets whose
 # headers our own headers may include; LINK private libraries.
 function (nurbs_add_vtk_module name)
-  cmake_parse_arguments(arg "" "" "CLASSES;SOURCES;HEADERS;KERNEL;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "CLASSES;SOURCES;HEADERS;GENERATED;KERNEL;LINK" ${ARGN})
   if (NURBS_KERNEL_ONLY)
     return ()
   endif ()
@@ -100,7 +100,7 @@ function (nurbs_add_vtk_module name)
   nurbs_existing(headers ${arg_HEADERS})
   vtk_module_add_module("${name}"
     CLASSES ${classes}
-    SOURCES ${sources}
+    SOURCES ${sources} ${arg_GENERATED}
     NOWRAP_HEADERS ${headers})
   vtk_module_link("${name}" PUBLIC ${arg_KERNEL} PRIVATE ${arg_LINK})
   vtk_module_compile_options("${name}" PRIVATE

@@ -1,0 +1,199 @@
+// What a fragment knows of its face, and what becomes of it.
+
+uniform samplerBuffer nurbsFaceLooks;  // two texels a surface, see vtkNURBSFaceLooks
+uniform isamplerBuffer nurbsFaceIds;   // cell and block of a surface
+flat in int nurbsTileIndex;
+in vec2 nurbsT;
+
+nurbsTileInfo nurbsFaceTile;
+vec2 nurbsStart; // of the patch in the face's domain, 0 to 1
+vec2 nurbsSize;
+
+#ifdef NURBS_EXACT
+
+uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
+uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
+
+nurbsFound nurbsHere; // the point that this fragment shows
+float nurbsDepth;     // its depth, 0 to 1
+vec3 nurbsSight;      // direction away from the eye
+mat2 nurbsPerPixel;   // change of t with x and y on screen
+
+void nurbsShow(nurbsRay ray, nurbsFound found)
+{
+  nurbsHere = found;
+  nurbsPerPixel = inverse(found.pixels);
+  nurbsDepth = 0.5 + 0.5 * dot(ray.z, found.jet.h) / dot(ray.w, found.jet.h);
+  nurbsSight = cross(ray.x.xyz, ray.y.xyz);
+  nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
+}
+
+// Pixels that this face may be off its neighbours at an edge.
+float nurbsGap()
+{
+  float tolerance = texelFetch(nurbsOrigins, 2 * nurbsFaceTile.surface).w;
+  return nurbsHere.noise + min(tolerance * nurbsHere.perUnit, 0.5);
+}
+
+// Beyond a side at which the surface ends, or the next patch joins with a crease, it is not this patch
+// that is seen. Beyond other sides the next patch goes on as this one does.
+bool nurbsIsOnPatch(vec2 t)
+{
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    int sides = int(texelFetch(nurbsKnots, nurbsFaceTile.block[dir] + 3).r);
+    float perPixel = length(vec2(nurbsPerPixel[0][dir], nurbsPerPixel[1][dir]));
+    float open = perPixel * nurbsGap();
+    float smoothly = min(2.0 * perPixel * nurbsMargin, 0.25);
+    float low = (sides & 1) != 0 ? open : smoothly;
+    float high = (sides & 2) != 0 ? open : smoothly;
+    if (t[dir] < -low || t[dir] > 1.0 + high)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whether the face's trims leave a point over, or a place so near that neighbours may disagree about
+// where their edge is.
+bool nurbsIsUntrimmed(vec2 t)
+{
+  int trim = nurbsFaceTile.trim;
+  vec2 st = nurbsStart + t * nurbsSize;
+  if (trim < 0 || nurbsInside(trim, st))
+  {
+    return true;
+  }
+  vec2 x = nurbsGap() * nurbsPerPixel[0] * nurbsSize;
+  vec2 y = nurbsGap() * nurbsPerPixel[1] * nurbsSize;
+  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
+    nurbsInside(trim, st - y);
+}
+
+#ifdef NURBS_SAMPLES
+
+uniform int nurbsSampleCount;
+uniform vec2 nurbsSamples[NURBS_SAMPLES]; // places in the pixel, -1/2 to 1/2
+
+// Which of the pixel's samples see the face: each for itself, by its own ray where the surface turns
+// away, else by the parameters' change over the pixel. The fragment shows the first that does.
+bool nurbsFindSamples()
+{
+  int mask = 0;
+  nurbsFound center;
+  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  bool hit = nurbsHit(ray, nurbsFaceTile, nurbsT, center);
+  bool steep = true;
+  float coverage = 0.5;
+  if (hit)
+  {
+    nurbsShow(ray, center);
+    vec4 h = center.jet.h;
+    vec3 su = center.jet.hu.xyz - center.jet.hu.w / h.w * h.xyz;
+    vec3 sv = center.jet.hv.xyz - center.jet.hv.w / h.w * h.xyz;
+    vec3 normal = cross(su, sv);
+    steep = abs(dot(normal, nurbsSight)) < 0.3 * length(normal) * length(nurbsSight);
+    coverage = nurbsFaceTile.trim < 0 ? 1.0
+      : nurbsCoverage(nurbsFaceTile.trim, nurbsStart + center.t * nurbsSize,
+          nurbsPerPixel[0] * nurbsSize, nurbsPerPixel[1] * nurbsSize);
+  }
+  bool shown = hit;
+  for (int i = 0; i < nurbsSampleCount; ++i)
+  {
+    vec2 offset = nurbsSamples[i];
+    vec2 t = hit ? center.t + nurbsPerPixel * offset : nurbsT;
+    if (steep)
+    {
+      nurbsFound found;
+      ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy + offset);
+      if (!nurbsHit(ray, nurbsFaceTile, t, found))
+      {
+        continue;
+      }
+      t = found.t;
+      if (!shown)
+      {
+        nurbsShow(ray, found);
+        shown = true;
+      }
+    }
+    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t) : coverage > 0.5;
+    if (untrimmed && nurbsIsOnPatch(t))
+    {
+      mask |= 1 << i;
+    }
+  }
+  gl_SampleMask[0] = mask;
+  return mask != 0;
+}
+
+#endif
+
+// The exact unit normal, or what the triangles say where it vanishes.
+vec3 nurbsNormal(vec3 interpolated)
+{
+  vec4 h = nurbsHere.jet.h, hu = nurbsHere.jet.hu, hv = nurbsHere.jet.hv;
+  vec3 normal = cross(hu.xyz - hu.w / h.w * h.xyz, hv.xyz - hv.w / h.w * h.xyz);
+  float size = length(normal);
+  if (size == 0.0)
+  {
+    return interpolated;
+  }
+  return (nurbsFaceTile.reversed ? -normal : normal) / size;
+}
+
+// Whether the outside is seen.
+bool nurbsSeesFront(vec3 normal)
+{
+  return dot(normal, nurbsSight) < 0.0;
+}
+
+#endif
+
+bool nurbsIsSeen = true; // whether the pixel sees the face
+
+// Finds out; called in uniform control flow.
+void nurbsBeginFragment()
+{
+  nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
+  ivec2 block = nurbsFaceTile.block;
+  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
+  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+#ifdef NURBS_SAMPLES
+  nurbsIsSeen = nurbsFindSamples();
+#elif defined(NURBS_EXACT)
+  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  nurbsFound found;
+  nurbsIsSeen = nurbsHit(ray, nurbsFaceTile, nurbsT, found);
+  nurbsShow(ray, found);
+  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t);
+#else
+  nurbsIsSeen = nurbsFaceTile.trim < 0 || nurbsInside(nurbsFaceTile.trim, nurbsStart + nurbsT * nurbsSize);
+#endif
+}
+
+ivec2 nurbsIds()
+{
+  return texelFetch(nurbsFaceIds, nurbsFaceTile.surface).xy;
+}
+
+//NURBS::Look::Dec
+
+void nurbsColor(float ambientIntensity, float diffuseIntensity, inout vec3 ambientColor,
+  inout vec3 diffuseColor, inout float opacity)
+{
+  vec4 color = texelFetch(nurbsFaceLooks, 2 * nurbsFaceTile.surface);
+  vec4 block = texelFetch(nurbsFaceLooks, 2 * nurbsFaceTile.surface + 1);
+  if (block.r > 0.5)
+  {
+    ambientColor = ambientIntensity * color.rgb;
+    diffuseColor = diffuseIntensity * color.rgb;
+  }
+  opacity = color.a * (block.g > 0.5 ? block.b : opacity);
+#ifdef NURBS_LOOK
+  vec3 look = nurbsLook(diffuseColor / max(diffuseIntensity, 1e-6));
+  ambientColor = ambientIntensity * look;
+  diffuseColor = diffuseIntensity * look;
+#endif
+}

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSDrawnModel.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+
+namespace
+{
+
+using Stamps = std::vector<std::pair<const void*, vtkMTimeType>>;
+
+void Append(Stamps& stamps, vtkObject* object)
+{
+  stamps.emplace_back(object, object ? object->GetMTime() : 0);
+}
+
+// Identity and age of the arrays that describe surfaces, loops and edges.
+Stamps StructureOf(vtkUnstructuredGrid* grid)
+{
+  Stamps stamps;
+  Append(stamps, grid->GetCells());
+  for (int i = 0; i < grid->GetCellData()->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = grid->GetCellData()->GetAbstractArray(i);
+    if (array->GetName() && vtkNURBSModel::IsStructureArray(array->GetName()))
+    {
+      Append(stamps, array);
+    }
+  }
+  for (int i = 0; i < grid->GetFieldData()->GetNumberOfArrays(); ++i)
+  {
+    Append(stamps, grid->GetFieldData()->GetAbstractArray(i));
+  }
+  return stamps;
+}
+
+Stamps PointsOf(vtkUnstructuredGrid* grid)
+{
+  Stamps stamps;
+  Append(stamps, grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
+  Append(stamps, grid->GetPointData()->GetRationalWeights());
+  return stamps;
+}
+
+std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input)
+{
+  std::vector<vtkNURBSDrawnModel::Leaf> leaves;
+  const auto add = [&](vtkDataObject* object, unsigned int index) {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(object);
+    if (grid && vtkNURBSModel::IsModel(grid))
+    {
+      vtkNURBSDrawnModel::Leaf leaf;
+      leaf.Grid = grid;
+      leaf.FlatIndex = index;
+      leaf.Structure = StructureOf(grid);
+      leaf.Points = PointsOf(grid);
+      leaves.push_back(std::move(leaf));
+    }
+  };
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      add(it->GetCurrentDataObject(), it->GetCurrentFlatIndex());
+    }
+  }
+  else
+  {
+    add(input, 0);
+  }
+  return leaves;
+}
+
+// The part of the domain that a face's loops enclose, as shares; all of it without loops.
+nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
+{
+  const nurbs::Box2 whole(nurbs::Vec2(0.0, 0.0), nurbs::Vec2(1.0, 1.0));
+  if (face.LoopCount == 0)
+  {
+    return whole;
+  }
+  const nurbs::Interval u = face.Geometry.Domain(0), v = face.Geometry.Domain(1);
+  nurbs::Box2 box;
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const nurbs::TrimLoop& loop = model.Loops[l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      const nurbs::CurveView<2>& curve = model.TrimCurves[c].Geometry;
+      for (int i = 0; i < curve.Count; ++i)
+      {
+        const nurbs::Vec2 p = curve.Point(i);
+        box.extend(nurbs::Vec2((p[0] - u.Min) / u.Length(), (p[1] - v.Min) / v.Length()));
+      }
+    }
+  }
+  return box.intersection(whole);
+}
+
+} // namespace
+
+vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
+{
+  std::vector<Leaf> leaves = LeavesOf(input);
+  this->Moved.clear();
+  this->Warnings.clear();
+  bool sameStructure = leaves.size() == this->Leaves.size(), samePoints = true;
+  for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
+  {
+    sameStructure = leaves[i].Structure == this->Leaves[i].Structure &&
+      leaves[i].FlatIndex == this->Leaves[i].FlatIndex;
+    samePoints = samePoints && leaves[i].Points == this->Leaves[i].Points;
+  }
+  if (sameStructure && samePoints)
+  {
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+    {
+      this->Leaves[i].Grid = leaves[i].Grid; // its attributes may be new
+    }
+    return Change::None;
+  }
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    Leaf& leaf = leaves[i];
+    leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
+      ? this->Leaves[i].View
+      : vtkNURBSModel::View(leaf.Grid);
+    leaf.First = i == 0
+      ? 0
+      : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
+  }
+  // A face that has lost its surface, or has one now, changes more than points.
+  for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
+  {
+    for (std::size_t f = 0; f < leaves[i].Model().Faces.size() && sameStructure; ++f)
+    {
+      sameStructure = (leaves[i].Model().Faces[f].Geometry.Count[0] > 0) ==
+        this->Table[leaves[i].First + static_cast<int>(f)].IsDrawable();
+    }
+  }
+  this->Leaves = std::move(leaves);
+  if (!sameStructure)
+  {
+    this->Rebuild();
+    return Change::Surfaces;
+  }
+  this->Move();
+  return Change::Points;
+}
+
+void vtkNURBSDrawnModel::Rebuild()
+{
+  this->Table = nurbs::SurfaceTable();
+  this->Trims = nurbs::TrimTexels();
+  this->MaxDegree = 1;
+  for (const Leaf& leaf : this->Leaves)
+  {
+    const nurbs::Model& model = leaf.Model();
+    for (const nurbs::Face& face : model.Faces)
+    {
+      if (face.Geometry.Count[0] > 0)
+      {
+        this->Table.Add(face.Geometry, UsedPart(model, face));
+        this->MaxDegree =
+          std::max({ this->MaxDegree, face.Geometry.Degree[0], face.Geometry.Degree[1] });
+      }
+      else
+      {
+        this->Table.AddNothing();
+      }
+    }
+    const std::string errors = leaf.View->DescribeFaceErrors();
+    this->Warnings += errors.empty() || this->Warnings.empty() ? errors : "\n" + errors;
+    this->AddTrims(nurbs::TrimIndex(model, vtkNURBSParallelFor));
+  }
+  vtkNURBSParallelFor(0, this->Table.Size(),
+    [this](std::int64_t first, std::int64_t last)
+    { this->Table.Fill(static_cast<int>(first), static_cast<int>(last)); });
+}
+
+void vtkNURBSDrawnModel::AddTrims(const nurbs::TrimIndex& index)
+{
+  nurbs::TrimTexels& trims = this->Trims;
+  for (std::int64_t f = 0; f < index.FaceCount(); ++f)
+  {
+    const nurbs::FaceTrim& face = index.Face(f);
+    const bool whole = face.IsWhole();
+    const std::size_t point = trims.Points.size(), record = trims.Records.size();
+    trims.FaceStart.push_back(whole ? -1 : static_cast<std::int32_t>(record / 4));
+    trims.PointStart.push_back(whole ? -1 : static_cast<std::int32_t>(point / 4));
+    trims.Points.resize(point + 4 * face.PointTexelCount());
+    trims.Records.resize(record + 4 * face.RecordTexelCount());
+    face.WriteTexels(static_cast<std::int32_t>(point / 4), trims.Points.data() + point,
+      trims.Records.data() + record);
+  }
+}
+
+void vtkNURBSDrawnModel::Move()
+{
+  std::vector<char> moved(this->Table.Size(), 0);
+  for (const Leaf& leaf : this->Leaves)
+  {
+    const nurbs::Model& model = leaf.Model();
+    vtkNURBSParallelFor(0, static_cast<std::int64_t>(model.Faces.size()),
+      [&](std::int64_t first, std::int64_t last)
+      {
+        for (std::int64_t f = first; f < last; ++f)
+        {
+          const int index = leaf.First + static_cast<int>(f);
+          if (this->Table[index].IsDrawable())
+          {
+            moved[index] = this->Table.Move(index, model.Faces[f].Geometry);
+          }
+        }
+      });
+  }
+  for (int i = 0; i < this->Table.Size(); ++i)
+  {
+    if (moved[i])
+    {
+      this->Moved.push_back(i);
+    }
+  }
+}
+
+nurbs::Box3 vtkNURBSDrawnModel::GetBounds() const
+{
+  nurbs::Box3 box;
+  for (int i = 0; i < this->Table.Size(); ++i)
+  {
+    box.extend(this->Table[i].Bounds);
+  }
+  return box;
+}
+
+const vtkNURBSDrawnModel::Leaf& vtkNURBSDrawnModel::LeafOf(int surface) const
+{
+  const auto next = std::upper_bound(this->Leaves.begin(), this->Leaves.end(), surface,
+    [](int s, const Leaf& leaf) { return s < leaf.First; });
+  return *(next - 1);
+}
+
+const nurbs::Face& vtkNURBSDrawnModel::FaceOf(int surface) const
+{
+  const Leaf& leaf = this->LeafOf(surface);
+  return leaf.Model().Faces[surface - leaf.First];
+}

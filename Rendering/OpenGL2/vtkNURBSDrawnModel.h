@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNURBSDrawnModel
+ * @brief   what a mapper keeps of its input: surfaces and trims, ready for the GPU
+ *
+ * The faces of a model, or of all models of a composite data set in the order of its iterator, are
+ * one list of surfaces. Update compares with what was there before, and tells apart what changed:
+ * control points alone (which of the surfaces moved), or knots, nets or trims. Private to this module.
+ */
+#ifndef vtkNURBSDrawnModel_h
+#define vtkNURBSDrawnModel_h
+
+#include "SurfaceTable.h"
+#include "TrimIndex.h"
+#include "vtkNURBSModelView.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+
+class vtkNURBSDrawnModel
+{
+public:
+  enum class Change
+  {
+    None,
+    Points, ///< Control points or weights of GetMoved().
+    Surfaces ///< Anything: the tables are new.
+  };
+
+  /// One model of the input.
+  struct Leaf
+  {
+    vtkSmartPointer<vtkUnstructuredGrid> Grid;
+    unsigned int FlatIndex = 0; ///< In the composite data set; 0: there is none.
+    int First = 0;              ///< Its first surface.
+    std::shared_ptr<const vtkNURBSModelView> View;
+    std::vector<std::pair<const void*, vtkMTimeType>> Structure;
+    std::vector<std::pair<const void*, vtkMTimeType>> Points;
+    const nurbs::Model& Model() const { return this->View->GetModel(); }
+  };
+
+  /// Takes the input as it is now. Faces with errors are not drawn; GetWarnings has a line for each
+  /// that is new.
+  Change Update(vtkDataObject* input);
+
+  const nurbs::SurfaceTable& GetTable() const { return this->Table; }
+  const nurbs::TrimTexels& GetTrims() const { return this->Trims; }
+  const std::vector<Leaf>& GetLeaves() const { return this->Leaves; }
+  const std::vector<int>& GetMoved() const { return this->Moved; }
+  const std::string& GetWarnings() const { return this->Warnings; }
+  nurbs::Box3 GetBounds() const;
+  /// The highest degree of a surface, in either direction.
+  int GetMaxDegree() const { return this->MaxDegree; }
+
+  /// The leaf that a surface belongs to.
+  const Leaf& LeafOf(int surface) const;
+  const nurbs::Face& FaceOf(int surface) const;
+
+private:
+  void Rebuild();
+  void AddTrims(const nurbs::TrimIndex& index);
+  void Move();
+
+  std::vector<Leaf> Leaves;
+  nurbs::SurfaceTable Table;
+  nurbs::TrimTexels Trims;
+  std::vector<int> Moved;
+  std::string Warnings;
+  int MaxDegree = 1;
+};
+
+#endif
