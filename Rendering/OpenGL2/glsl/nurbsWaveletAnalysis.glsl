@@ -1,6 +1,6 @@
 //VTK::System::Dec
 
-// One step of analysis along lines (Tan, Zhao, Lu 2012, section 4.3.2): coarse samples, then details.
+// One step of analysis along lines (Tan, Zhao, Lu 2012, section 4.3.2): coarse samples, details.
 
 //NURBS::WaveletLine::Dec
 

@@ -1,5 +1,6 @@
-// What analysis and synthesis share: the line of samples that a texel lies on, in direction DIRECTION
-// (0: rows, 1: columns). WAVELET is 0 (Haar), 1 (interpolating) or 2 (lifted), see WaveletTransform.h.
+// What analysis and synthesis share: the line of samples that a texel lies on, in direction
+// DIRECTION (0: rows, 1: columns). WAVELET is 0 (Haar), 1 (interpolating) or 2 (lifted), see
+// WaveletTransform.h.
 
 uniform sampler2D nurbsGrids;
 flat in ivec4 grid;
@@ -25,8 +26,9 @@ int lineIntervals()
   return DIRECTION == 0 ? grid.z : grid.w;
 }
 
-// True for lines inside the grid. Those along its border are not updated: they are curves of their own.
-// Columns are taken when rows are coarse samples and details, so that the last coarse one is the border.
+// True for lines inside the grid. Those along its border are not updated: they are curves of their
+// own. Columns are taken when rows are coarse samples and details, so that the last coarse one is
+// the border.
 bool isUpdated(int across)
 {
   int intervals = DIRECTION == 0 ? grid.w : grid.z;

@@ -2,7 +2,7 @@
 
 // A rectangle of the target for each grid: all its samples.
 
-uniform isamplerBuffer nurbsRectangles; // place x and y, intervals of u and v (negative: not halved)
+uniform isamplerBuffer nurbsRectangles; // place, intervals of u and v (negative: not halved)
 uniform int endSamples;                 // samples of a line beyond its intervals
 uniform vec2 targetSize;
 
