@@ -289,7 +289,8 @@ void WaveletFace::MeasureCells(const std::vector<Vec3>& finest)
         const int a[3] = { at[0], (at[0] + at[1]) / 2, at[1] };
         const int b[3] = { at[2], (at[2] + at[3]) / 2, at[3] };
         double own = 0.0;
-        Box3 range(Vec3(Vec3::Zero()));
+        const Vec3 none = Vec3::Zero();
+        Box3 range(none);
         for (int t = 0; t < 3; ++t)
         {
           for (int s = 0; s < 3; ++s)
@@ -309,7 +310,7 @@ void WaveletFace::MeasureCells(const std::vector<Vec3>& finest)
         }
         double finer = 0.0;
         double coefficient = own;
-        Box3 finerRange(Vec3(Vec3::Zero()));
+        Box3 finerRange(none);
         WaveletCell children[4];
         const int count = k > 1 ? this->Children(cell, children) : 0;
         for (int c = 0; c < count; ++c)

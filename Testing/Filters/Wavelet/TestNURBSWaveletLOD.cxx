@@ -4,6 +4,7 @@
 #include "../../testMessageKeeper.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
 #include "vtkNURBSParallel.h"
 #include "vtkNURBSShapeSource.h"
 #include "vtkNURBSWaveletLOD.h"
@@ -182,6 +183,80 @@ TEST(NURBSWaveletLOD, SolidsAreClosedInEveryMode)
     filter->SetTriangleBudget(all / 10);
     EXPECT_EQ(open(), 0u) << wavelet;
     EXPECT_LE(filter->GetNumberOfTriangles(), all / 10);
+  }
+}
+
+// The bound of every face of a solid against dense samples of its triangles and its surface, at the
+// same parameters.
+TEST(NURBSWaveletLOD, BoundsOfSolidsHold)
+{
+  const char* const path = "/usr/share/opencascade/data/step/linkrods.step";
+  if (!std::ifstream(path))
+  {
+    GTEST_SKIP() << path << " is not installed";
+  }
+  vtkNew<vtkNURBSCADReader> reader;
+  reader->SetFileName(path);
+  reader->Update();
+  auto* input = vtkPartitionedDataSetCollection::SafeDownCast(reader->GetOutputDataObject(0));
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input->GetPartition(0, 0));
+  const auto view = vtkNURBSModel::View(grid);
+  vtkNew<vtkNURBSWaveletLOD> filter;
+  filter->SetInputData(grid);
+  filter->SetFinestTolerance(1e-3);
+  for (int wavelet = 0; wavelet < 3; ++wavelet)
+  {
+    filter->SetWavelet(wavelet);
+    for (int mode = 0; mode < 3; ++mode)
+    {
+      filter->SetMode(mode);
+      filter->SetLevel(2);
+      filter->SetMaximumError(1e-2);
+      filter->SetTriangleBudget(6000);
+      filter->Update();
+      vtkPolyData* mesh = Mesh(filter);
+      vtkDataArray* bounds = mesh->GetFieldData()->GetArray("FaceErrorBound");
+      vtkDataArray* ids = mesh->GetFieldData()->GetArray("FaceIds");
+      std::map<vtkIdType, vtkIdType> cells;
+      for (vtkIdType f = 0; f < ids->GetNumberOfTuples(); ++f)
+      {
+        cells[vtkIdType(ids->GetComponent(f, 0))] = f;
+      }
+      std::vector<double> measured(cells.size(), 0.0);
+      vtkDataArray* faces = mesh->GetCellData()->GetArray(vtkNURBSModel::FaceIdName());
+      vtkDataArray* uv = mesh->GetPointData()->GetArray("UV");
+      vtkNew<vtkIdList> corners;
+      for (vtkIdType t = 0; t < mesh->GetNumberOfPolys(); ++t)
+      {
+        mesh->GetPolys()->GetCellAtId(t, corners);
+        const vtkIdType face = cells[vtkIdType(faces->GetComponent(t, 0))];
+        const nurbs::SurfaceView& surface = view->GetModel().Faces[face].Geometry;
+        for (int i = 0; i <= 4; ++i)
+        {
+          for (int j = 0; i + j <= 4; ++j)
+          {
+            const double share[3] = { 0.25 * i, 0.25 * j, 0.25 * (4 - i - j) };
+            nurbs::Vec3 x = nurbs::Vec3::Zero();
+            nurbs::Vec2 p = nurbs::Vec2::Zero();
+            for (int k = 0; k < 3; ++k)
+            {
+              const vtkIdType id = corners->GetId(k);
+              nurbs::Vec3 corner;
+              mesh->GetPoint(id, corner.data());
+              x += share[k] * corner;
+              p += share[k] * nurbs::Vec2(uv->GetComponent(id, 0), uv->GetComponent(id, 1));
+            }
+            const double distance = (x - nurbs::Evaluate(surface, p[0], p[1])).norm();
+            measured[face] = std::max(measured[face], distance);
+          }
+        }
+      }
+      for (std::size_t f = 0; f < measured.size(); ++f)
+      {
+        EXPECT_LE(measured[f], bounds->GetComponent(vtkIdType(f), 0) * (1.0 + 1e-9) + 1e-9)
+          << "face " << f << " wavelet " << wavelet << " mode " << mode;
+      }
+    }
   }
 }
 
