@@ -55,6 +55,7 @@ def measure(file):
     tessellator.Update()
     if tessellator.GetNumberOfTriangles() == 0:
         return None
+    tessellated = tessellator.GetNumberOfTriangles()
     out = {"solid": open_edges(tessellator.GetOutputDataObject(0)) == 0, "wavelets": {}}
     levels = vtknurbs.vtkNURBSWaveletLOD()
     levels.SetInputConnection(reader.GetOutputPort())
@@ -88,6 +89,9 @@ def measure(file):
         for error in (1e-3, 1e-2):
             levels.SetMaximumError(error)
             look("mixed")
+            if error == 1e-3:
+                result["share"] = levels.GetNumberOfTriangles() / tessellated
+                result["capped"] = levels.GetNumberOfCappedFaces()
         levels.SetModeToTriangleBudget()
         levels.SetTriangleBudget(max(1, result["triangles"] // 5))
         look("mixed")
@@ -100,7 +104,9 @@ def main():
     vtkObject.GlobalWarningDisplayOff()
     totals = {name: {"open": 0, "mixed": 0, "failed": 0, "repaired": 0} for name in WAVELETS}
     solids = files = levels = 0
-    finest, coarsest = [], []
+    coarsest = []
+    capped = dict.fromkeys(WAVELETS, 0)
+    shares = {name: [] for name in WAVELETS}
     print("| file | solid | levels | triangles | analysis, s | open edges: levels, mixed (each wavelet) |")
     print("|---|---|--:|--:|--:|---|")
     for file in bench.models(options.folders, options.only):
@@ -114,14 +120,18 @@ def main():
         for name, result in done["wavelets"].items():
             for key in totals[name]:
                 totals[name][key] += result[key] if done["solid"] or key in ("failed", "repaired") else 0
-        finest.append(first["seconds"][0] / first["analyse"] if first["analyse"] else 0.0)
         coarsest.append(first["seconds"][first["levels"] - 1])
+        for name, result in done["wavelets"].items():
+            shares[name].append(result["share"])
+            capped[name] += result["capped"]
         edges = ", ".join(f"{r['open']} {r['mixed']}" for r in done["wavelets"].values())
         print(
             f"| {os.path.basename(file)} | {'yes' if done['solid'] else 'no'} | {first['levels']}"
             f" | {first['triangles']} | {first['analyse']:.3f} | {edges} |",
             flush=True,
         )
+    if not files:
+        return
     print(f"\n{files} files, {solids} solids, {levels} levels in all")
     for name in WAVELETS:
         t = totals[name]
@@ -129,8 +139,12 @@ def main():
             f"{name}: open edges of solids {t['open']} on all levels, {t['mixed']} at mixed ones;"
             f" faces failed {t['failed']}, with loops that cross {t['repaired']}"
         )
-    if coarsest:
-        print(f"median seconds of a change to the coarsest level: {statistics.median(coarsest):.4f}")
+        print(
+            f"  maximum error 1e-3: {statistics.median(shares[name]):.1f} times the tessellator's"
+            f" triangles (median; {min(shares[name]):.1f} to {max(shares[name]):.1f}),"
+            f" {capped[name]} faces capped"
+        )
+    print(f"median seconds of a change to the coarsest level: {statistics.median(coarsest):.4f}")
 
 
 if __name__ == "__main__":
