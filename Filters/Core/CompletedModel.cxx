@@ -105,8 +105,8 @@ double Apart(const Side& a, const Side& b, bool backwards)
   return apart;
 }
 
-// Gives sides of different faces that coincide one edge: of the loops from `firstLoop` on, which are
-// natural boundaries.
+// Gives sides of different faces that coincide one edge: of the loops from `firstLoop` on, which
+// are natural boundaries.
 void MatchSides(CompletedModel& out, std::size_t firstLoop, double tolerance)
 {
   Model& model = out.Data;

@@ -45,9 +45,9 @@ Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<Edg
 CompletedModel CompleteModel(
   const Model& model, const std::vector<std::string>& faceErrors, double sideTolerance = -1.0);
 
-/// Makes one vertex of the ends of edges that are too short to matter, and the edge a degenerate one.
-/// Neighbouring short edges become points only as far as they are so short together; a loop keeps two
-/// longer ones.
+/// Makes one vertex of the ends of edges that are too short to matter, and the edge a degenerate
+/// one. Neighbouring short edges become points only as far as they are so short together; a loop
+/// keeps two longer ones.
 /// @param shortest one length an edge; longer edges stay.
 void CollapseShortEdges(CompletedModel& model, const std::vector<double>& shortest);
 

@@ -76,8 +76,8 @@ template <typename Real, int N>
 void SynthesiseGrid(
   const GridStep& step, const Real* coarse, const Real* details, std::int64_t pitch, Real* fine);
 
-/// The coarse grid's samples alone, from the fine grid's, both close-packed: a step to a coarser level
-/// whose details are known already. The same as AnalyseGrid's to rounding.
+/// The coarse grid's samples alone, from the fine grid's, both close-packed: a step to a coarser
+/// level whose details are known already. The same as AnalyseGrid's to rounding.
 template <typename Real, int N>
 void CoarsenGrid(const GridStep& step, const Real* fine, Real* coarse);
 

@@ -2,11 +2,12 @@
 /// @file WaveletBenchmark.cxx
 /// @brief Changing the level of detail by wavelets, against evaluating again.
 ///
-/// Prints the figures of Documentation/Papers/tan-2012-wavelets.md (Tan, Zhao, Lu 2012, figure 15: grids
-/// of 128 to 1024 squared of a bicubic surface of 21 x 23 control points). One thread; each figure is
-/// the median of several runs, in seconds of processor time. A change to a finer level is one synthesis
-/// step to the grid given, to a coarser one its coarse samples (their details are known); what is
-/// evaluated again is the grid that results, by SurfaceEvaluator::Grid, the fastest way there is in the suite.
+/// Prints the figures of Documentation/Papers/tan-2012-wavelets.md (Tan, Zhao, Lu 2012, figure 15:
+/// grids of 128 to 1024 squared of a bicubic surface of 21 x 23 control points). One thread; each
+/// figure is the median of several runs, in seconds of processor time. A change to a finer level is
+/// one synthesis step to the grid given, to a coarser one its coarse samples (their details are
+/// known); what is evaluated again is the grid that results, by SurfaceEvaluator::Grid, the fastest
+/// way there is in the suite.
 #include "Measuring.h"
 #include "SurfaceEvaluator.h"
 #include "WaveletPyramid.h"

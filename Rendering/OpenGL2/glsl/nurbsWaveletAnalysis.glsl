@@ -10,8 +10,8 @@ vec4 detail(int k, int across)
     0.5 * (fetchSample(2 * k, across) + fetchSample(2 * k + 2, across));
 }
 
-// Neighbours take different ways through a branch, so that each waits for both; shares of 0, 1 and -1
-// do without, and change no bit.
+// Neighbours take different ways through a branch, so that each waits for both; shares of 0, 1 and
+// -1 do without, and change no bit.
 vec4 analysed(int i, int across, int n)
 {
   int middle = n / 2;
