@@ -2,9 +2,9 @@
 /// @file BoxTree.h
 /// @brief A binary tree of boxes that a ray walks through from near to far.
 ///
-/// Built top down by the surface area heuristic in 16 bins (Wald, "On fast construction of SAH-based
-/// bounding volume hierarchies", 2007); each leaf is one box. Boxes are kept as floats, rounded
-/// outwards.
+/// Built top down by the surface area heuristic in 16 bins (Wald, "On fast construction of
+/// SAH-based bounding volume hierarchies", 2007); each leaf is one box. Boxes are kept as floats,
+/// rounded outwards.
 #pragma once
 
 #include "Types.h"

@@ -22,6 +22,8 @@ constexpr double SteepEnough = 1.0;
 constexpr int MaxHalvings = 10;
 /// Cells are not made smaller than this part of the model.
 constexpr double SmallestCell = 1e-4;
+/// Parts that a monotone piece of a trim curve is cut into, to tell which cells it meets.
+constexpr int CurveSteps = 8;
 /// Up to this factor, derivatives are more than a quarter of those in the cell's middle.
 constexpr double SafeFactor = 0.75;
 
@@ -111,15 +113,50 @@ std::vector<double> Binomials(int n)
 
 } // namespace
 
+namespace
+{
+
+/// Points along a monotone piece of a trim curve, in the order of v.
+std::vector<Vec2> Sample(const TrimPiece& piece, const std::vector<Vec3>& inner)
+{
+  const Vec2 size = piece.High - piece.Low;
+  const int steps = size[0] == 0.0 || size[1] == 0.0 ? 1 : CurveSteps;
+  std::vector<Vec2> points;
+  for (int k = 0; k <= steps; ++k)
+  {
+    const double t = double(k) / steps;
+    const int n = piece.Degree;
+    Vec3 sum = std::pow(1.0 - t, n) * Vec3::UnitZ() + std::pow(t, n) * Vec3::Ones();
+    for (int i = 1; i < n; ++i)
+    {
+      sum += std::pow(t, i) * std::pow(1.0 - t, n - i) * inner[piece.FirstInner + i - 1];
+    }
+    const double x = sum[0] / sum[2];
+    points.push_back(
+      piece.Low + size.cwiseProduct(Vec2(piece.Falling ? 1.0 - x : x, sum[1] / sum[2])));
+  }
+  return points;
+}
+
+} // namespace
+
 CoverTest::CoverTest(const Model& model, const nurbs::Face& face, const FaceTrim& trim)
   : Trim(trim)
   , Domain{ face.Geometry.Domain(0), face.Geometry.Domain(1) }
 {
-  if (!trim.IsWhole())
+  if (trim.IsWhole())
   {
-    for (const TrimPiece& piece : CutTrimLoops(model, face).Pieces)
+    return;
+  }
+  const TrimPieces cut = CutTrimLoops(model, face);
+  for (const TrimPiece& piece : cut.Pieces)
+  {
+    // Between two points of it, a monotone curve stays in their box.
+    const std::vector<Vec2> points = Sample(piece, cut.Inner);
+    for (std::size_t k = 1; k < points.size(); ++k)
     {
-      this->Boxes.emplace_back(piece.Low, piece.High);
+      Box2 box(points[k - 1]);
+      this->Boxes.push_back(box.extend(points[k]));
     }
   }
 }
@@ -290,9 +327,9 @@ void PatchCutter::Cut(
   this->Cut(context, high, highQuotients, depth + 1);
 }
 
-/// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which
-/// s - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction in
-/// which they do so more.
+/// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which s
+/// - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
+/// in which they do so more.
 double PatchCutter::Flatten(
   const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir) const
 {

@@ -23,8 +23,8 @@ class CoverTest
 public:
   CoverTest(const Model& model, const nurbs::Face& face, const FaceTrim& trim);
 
-  /// Exact but for rectangles that a trim curve's box meets: Part. Coordinates are normalised to the
-  /// face's domain.
+  /// Exact but for rectangles that a trim curve's box meets: Part. Coordinates are normalised to
+  /// the face's domain.
   TrimCover Cover(const Box2& rectangle) const;
 
   /// In the parameters of the face, to normalised ones.
@@ -36,7 +36,7 @@ public:
 private:
   const FaceTrim& Trim;
   Interval Domain[2];
-  std::vector<Box2> Boxes; ///< Of monotone pieces of the trim curves.
+  std::vector<Box2> Boxes; ///< Of short pieces of the trim curves.
 };
 
 /// Takes the patches of one surface and makes what PatchRays keeps of them.
@@ -48,8 +48,8 @@ public:
     : Size(size)
   {}
 
-  /// Adds a patch of the face, but for cells that are trimmed away and farther than `reach` (a length)
-  /// from what is left.
+  /// Adds a patch of the face, but for cells that are trimmed away and farther than `reach` (a
+  /// length) from what is left.
   void Add(const BezierPatch& given, std::int32_t face, const CoverTest& test, double reach);
 
   std::vector<PatchRays::Patch> Patches;
@@ -58,9 +58,9 @@ public:
   std::vector<Box3> Boxes;
 
 private:
-  /// The numerators of the derivatives of a rational patch in three dimensions, w H_u - H w_u and the
-  /// same for v, and their denominator w^2: a patch of the double degrees. Unlike H_u, they do not
-  /// depend on where the origin is.
+  /// The numerators of the derivatives of a rational patch in three dimensions, w H_u - H w_u and
+  /// the same for v, and their denominator w^2: a patch of the double degrees. Unlike H_u, they do
+  /// not depend on where the origin is.
   using Quotient = Eigen::Matrix<double, 7, 1>;
   using QuotientNet = std::vector<Quotient>;
 

@@ -45,8 +45,9 @@ inline void Bernstein(int degree, double t, double* b)
   }
 }
 
-/// Point and derivatives by de Casteljau's algorithm, its last step made for both directions at once:
-/// the four points before it give them all (Farin, Curves and Surfaces for CAGD, section 14.4).
+/// Point and derivatives by de Casteljau's algorithm, its last step made for both directions at
+/// once: the four points before it give them all (Farin, Curves and Surfaces for CAGD, section
+/// 14.4).
 template <int P, int Q>
 void EvaluatePatch(const Vec4* net, int p, int q, double u, double v, PatchPoint& out)
 {
@@ -169,8 +170,13 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
   this->Points.reserve(points);
   this->Cells.reserve(cells);
   this->CellBoxes.reserve(cells);
+  this->Box.setEmpty();
   for (PatchCutter& surface : cut)
   {
+    for (const Box3& box : surface.Boxes)
+    {
+      this->Box.extend(box);
+    }
     const std::int32_t firstPatch = static_cast<std::int32_t>(this->Patches.size());
     const std::int64_t firstPoint = static_cast<std::int64_t>(this->Points.size());
     for (Patch patch : surface.Patches)
@@ -187,6 +193,7 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
     this->CellBoxes.insert(this->CellBoxes.end(), surface.Boxes.begin(), surface.Boxes.end());
     surface = PatchCutter(this->Size);
   }
+  this->Size = this->Box.isEmpty() ? 0.0 : this->Box.diagonal().norm();
 }
 
 std::size_t PatchRays::MemoryUse() const
@@ -317,8 +324,8 @@ Vec2 Clamp(const Vec2& at, const PatchPiece& piece, const Vec2& slack)
     std::max(piece.Low[1] - slack[1], std::min(at[1], piece.High[1] + slack[1])));
 }
 
-/// True if a root in the piece would be too far from at - chord: where s - Chord g(s) contracts by the
-/// factor f, the root is within f / (1 - f) of its step.
+/// True if a root in the piece would be too far from at - chord: where s - Chord g(s) contracts by
+/// the factor f, the root is within f / (1 - f) of its step.
 bool IsOutside(const RootPiece& root, const Vec2& slack, const Vec2& at, const Vec2& chord)
 {
   const double reach = 1.01 * root.Factor / (1.0 - root.Factor) *
@@ -338,8 +345,8 @@ bool IsOutside(const RootPiece& root, const Vec2& slack, const Vec2& at, const V
 
 } // namespace
 
-/// Newton's method within a piece that has one root at most; where it does not get on, the iteration
-/// with a constant matrix, which contracts.
+/// Newton's method within a piece that has one root at most; where it does not get on, the
+/// iteration with a constant matrix, which contracts.
 void PatchRays::Polish(
   const Cell& cell, const RayPlanes& ray, const RootPiece& root, std::vector<PatchHit>& hits) const
 {
@@ -370,7 +377,10 @@ void PatchRays::Polish(
     const double enough = newton ? NewtonEnd : ChordEnd;
     if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {
-      this->AddHit(cell, at - move, false, hits);
+      if (Clamp(at - move, root.Piece, slack) == Vec2(at - move))
+      {
+        this->AddHit(cell, at - move, false, hits);
+      }
       return;
     }
     const Vec2 last = at;
@@ -382,8 +392,8 @@ void PatchRays::Polish(
   }
 }
 
-/// A piece whose control points all lie within rounding of a plane through the ray. If it is small, it
-/// holds a pole, or the ray touches the surface there: the point next to the ray by the damped
+/// A piece whose control points all lie within rounding of a plane through the ray. If it is small,
+/// it holds a pole, or the ray touches the surface there: the point next to the ray by the damped
 /// Gauss-Newton method. If it is not, the ray runs within the surface.
 void PatchRays::Touch(const Cell& cell, const RayPlanes& ray, const PatchPiece& piece,
   std::vector<PatchHit>& hits) const

@@ -2,13 +2,13 @@
 /// @file PatchRays.h
 /// @brief All intersections of a ray with rational Bezier patches, in double precision.
 ///
-/// A point of the surface lies on a ray if it lies on two planes through it, so that a hit is a root
-/// of g(s) = (N1 . H(s), N2 . H(s)), H the homogeneous patch and N1, N2 the planes (Kajiya 1982). g
-/// is itself a patch, of two components. Where its derivative varies little over a piece of the
-/// patch, Krawczyk's operator s - Y g(s) (Krawczyk 1969) tells that the piece has no root, or at most
-/// one, which Newton's method finds from there; elsewhere the piece is halved, and left out once its
-/// control points lie on one side of a plane through the ray (Nishita, Sederberg, Kakimoto 1990 clip
-/// there; halving costs the same for curved patches and never stalls).
+/// A point of the surface lies on a ray if it lies on two planes through it, so that a hit is a
+/// root of g(s) = (N1 . H(s), N2 . H(s)), H the homogeneous patch and N1, N2 the planes (Kajiya
+/// 1982). g is itself a patch, of two components. Where its derivative varies little over a piece
+/// of the patch, Krawczyk's operator s - Y g(s) (Krawczyk 1969) tells that the piece has no root,
+/// or at most one, which Newton's method finds from there; elsewhere the piece is halved, and left
+/// out once its control points lie on one side of a plane through the ray (Nishita, Sederberg,
+/// Kakimoto 1990 clip there; halving costs the same for curved patches and never stalls).
 ///
 /// For speed, patches are cut in advance into cells, over which the surface's derivatives turn by
 /// some ten degrees. A cell keeps its tangent plane and a bound on how much it varies, which is all
@@ -59,9 +59,10 @@ struct PatchHit
 class PatchRays
 {
 public:
-  /// Cuts the surfaces of the model's faces; one without a control net has no patches. What is trimmed
-  /// away is left out, if it is farther than `reach` (a length for each face) from what is not. Faces
-  /// are independent of each other, the result does not depend on `parallel`. Copies what it needs.
+  /// Cuts the surfaces of the model's faces; one without a control net has no patches. What is
+  /// trimmed away is left out, if it is farther than `reach` (a length for each face) from what is
+  /// not. Faces are independent of each other, the result does not depend on `parallel`. Copies
+  /// what it needs.
   void Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
     const ParallelFor& parallel);
 
@@ -73,15 +74,15 @@ public:
   /// Forgets them; whoever asked for them has a tree by now.
   void ReleaseBoxes() { std::vector<Box3>().swap(this->CellBoxes); }
 
-  /// The box of all control points.
+  /// The box of the cells' control points, empty if there are none.
   const Box3& Bounds() const { return this->Box; }
 
   std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
   std::int32_t FaceOfCell(std::int32_t cell) const { return this->FaceOf(this->Cells[cell].Patch); }
 
-  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border of
-  /// cells, or within rounding of it, is found by each of them. Where a ray runs within the surface
-  /// along a curve, it has no intersections.
+  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border
+  /// of cells, or within rounding of it, is found by each of them. Where a ray runs within the
+  /// surface along a curve, it has no intersections.
   void Intersect(std::int32_t cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
 
   /// Distances below this are rounding.
@@ -106,8 +107,8 @@ private:
   {
     Vec3 Middle; ///< The point in the middle of its parameters.
     Vec3 D[2];   ///< Derivatives there with respect to the cell's own parameters in [0, 1].
-    /// Bounds on how far the surface's derivatives (of u and v; last index) differ from D: coordinates
-    /// along D[0], D[1] (first index) and along their cross product.
+    /// Bounds on how far the surface's derivatives (of u and v; last index) differ from D:
+    /// coordinates along D[0], D[1] (first index) and along their cross product.
     float Along[2][2];
     float Across[2];
     float Radius;          ///< Of a ball around Middle that holds the cell.
@@ -130,7 +131,7 @@ private:
   std::vector<Cell> Cells;
   std::vector<Box3> CellBoxes;
   Box3 Box;
-  double Size = 0.0;     ///< Diagonal of Box.
+  double Size = 0.0;     ///< Diagonal of Box; while cells are made, of all control points.
   double Rounding = 0.0; ///< What evaluating a point may err by.
 };
 

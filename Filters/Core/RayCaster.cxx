@@ -47,8 +47,8 @@ struct RayCaster::Candidate
   bool Sure = false; ///< It is: inside of its face, or in the gap between two.
 };
 
-/// A ray with its origin moved to where it is next to the model's middle, and t a length from there:
-/// numbers are as small as they can be, however far the ray comes from.
+/// A ray with its origin moved to where it is next to the model's middle, and t a length from
+/// there: numbers are as small as they can be, however far the ray comes from.
 struct RayCaster::Cast
 {
   double Speed; ///< Length of the ray's direction.
@@ -334,8 +334,8 @@ void RayCaster::Merge(std::vector<Candidate>& found, const Vec3& direction) cons
   found.swap(kept);
 }
 
-/// Of the hits that lie beside one face only, leaves those without which two hits on end would cross
-/// in the same direction. The others pass the face's border.
+/// Of the hits that lie beside one face only, leaves those without which two hits on end would
+/// cross in the same direction. The others pass the face's border.
 void RayCaster::KeepNeeded(std::vector<Candidate>& found)
 {
   const auto surelyCrosses = [](const Candidate& one) { return one.Sure && one.Hit.Crossing != 0; };

@@ -59,8 +59,7 @@ void SetTangentSquare(vtkGenericCell* cell, const nurbs::SurfaceView& surface,
   {
     const double u = k == 1 || k == 2 ? 1.0 : 0.0;
     const double v = k >= 2 ? 1.0 : 0.0;
-    const nurbs::Vec3 corner =
-      hit.Point + (u - pcoords[0]) * along + (v - pcoords[1]) * across;
+    const nurbs::Vec3 corner = hit.Point + (u - pcoords[0]) * along + (v - pcoords[1]) * across;
     cell->Points->SetPoint(k, corner.data());
     cell->PointIds->SetId(k, surface.Id(ids[k]));
   }
@@ -146,8 +145,8 @@ std::shared_ptr<const nurbs::RayCaster> vtkNURBSCellLocator::GetRayCaster()
     : nullptr;
 }
 
-int vtkNURBSCellLocator::IntersectWithLine(const double p1[3], const double p2[3], double, double& t,
-  double x[3], double pcoords[3], int& subId, vtkIdType& cellId, vtkGenericCell* cell)
+int vtkNURBSCellLocator::IntersectWithLine(const double p1[3], const double p2[3], double,
+  double& t, double x[3], double pcoords[3], int& subId, vtkIdType& cellId, vtkGenericCell* cell)
 {
   const auto caster = this->GetRayCaster();
   nurbs::RayHit hit;

@@ -16,9 +16,11 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNURBSDrawnModel.h"
 #include "vtkNURBSFaceLooks.h"
+#include "vtkNURBSFrameRate.h"
 #include "vtkNURBSGridIndices.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSTessellatedDrawing.h"
 #include "vtkNURBSTileTextures.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
@@ -33,6 +35,7 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
+#include "vtkTimerLog.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWeakPointer.h"
@@ -52,6 +55,13 @@ vtkStandardNewMacro(vtkNURBSMapper);
 
 namespace
 {
+
+// The shape of a tile that is drawn by some levels coarser.
+int Coarser(int shape, int levels)
+{
+  constexpr int Row = nurbs::Tile::MaxLog + 1;
+  return std::max(shape % Row - levels, 0) + Row * std::max(shape / Row - levels, 0);
+}
 
 // The largest tolerance of the edges around a face.
 double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
@@ -86,6 +96,8 @@ struct vtkNURBSMapper::Internals
   vtkNURBSBufferTexture LookTexture{ vtkNURBSBufferTexture::COLOR };
   vtkNURBSBufferTexture FaceIds{ vtkNURBSBufferTexture::INTEGER4 };
   vtkNURBSBufferTexture LookColors{ vtkNURBSBufferTexture::COLOR };
+  vtkNURBSTessellatedDrawing Tessellated;
+  vtkNURBSFrameRate FrameRate;
   int Samples = 0; ///< Of a pixel, if fragments choose among them; else 0.
   vtkNURBSFaceLooks Looks;
   bool LooksAreSent = false;
@@ -171,6 +183,11 @@ vtkMTimeType vtkNURBSMapper::GetMTime()
     this->Superclass::GetMTime(), this->Attributes ? this->Attributes->GetMTime() : 0);
 }
 
+double vtkNURBSMapper::GetCoarserLevels()
+{
+  return this->Content->FrameRate.GetCoarserLevels();
+}
+
 vtkIdType vtkNURBSMapper::GetNumberOfBytesSent()
 {
   const Internals& c = *this->Content;
@@ -236,7 +253,7 @@ void vtkNURBSMapper::ComputeBounds()
   }
 }
 
-// Sends what the device does not have yet. False, after an error was told, if it can't take it.
+// Sends what the device does not have yet. False, after a warning that tells why, if it can't take it.
 bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
 {
   Internals& c = *this->Content;
@@ -268,13 +285,13 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
       }
     }
     const nurbs::TrimTexels& trims = c.Model.GetTrims();
-    if (!c.Textures.SetTable(window, table, infos))
+    if (!c.Textures.SetTable(table, infos))
     {
       error = c.Textures.GetError();
     }
-    else if (!c.TrimPoints.Upload(window, trims.Points.data(), 4 * trims.Points.size()) ||
-      !c.TrimRecords.Upload(window, trims.Records.data(), 4 * trims.Records.size()) ||
-      !c.FaceIds.Upload(window, ids.data(), 4 * ids.size()))
+    else if (!c.TrimPoints.Upload(trims.Points.data(), 4 * trims.Points.size()) ||
+      !c.TrimRecords.Upload(trims.Records.data(), 4 * trims.Records.size()) ||
+      !c.FaceIds.Upload(ids.data(), 4 * ids.size()))
     {
       error = "the device can't hold this model's trimming curves";
     }
@@ -283,7 +300,7 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
   {
     if (c.LastError != error)
     {
-      vtkErrorMacro("The model can't be drawn: " << error);
+      vtkWarningMacro("The model is drawn by the CPU's tessellator: " << error << ".");
       c.LastError = error;
     }
     return false;
@@ -314,8 +331,16 @@ void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
     this->GetInputAlgorithm()->Update();
   }
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
-  if (!this->UpdateModel() || !this->UpdateTextures(renderer))
+  if (!this->UpdateModel())
   {
+    return;
+  }
+  this->DrawsTessellation = this->UseTessellation || !this->UpdateTextures(renderer);
+  if (this->DrawsTessellation)
+  {
+    this->Content->Tessellated.Render(this, this->GetInputDataObject(0, 0), renderer, actor);
+    this->NumberOfTriangles = this->Content->Tessellated.GetNumberOfTriangles();
+    this->AchievedPixelError = this->PixelError;
     return;
   }
   this->UpdateCameraShiftScale(renderer, actor);
@@ -358,7 +383,7 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   if (c.Looks.Update(this, c.Model, this->Attributes) || !c.LooksAreSent)
   {
     c.LooksAreSent = true;
-    c.LookTexture.Upload(window, c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
+    c.LookTexture.Upload(c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
     c.TilesAreReady = false; // blocks may have been hidden or shown
   }
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -488,7 +513,7 @@ void vtkNURBSMapper::ReplaceShaderValues(
       "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
     substitute(fragment, "  nurbsBeginFragment();\n",
       "  nurbsBeginFragment();\n"
-      "  vec3 nurbsExactNormal = nurbsNormal(inverse(normalMatrix) * normalVCVSOutput);\n"
+      "  vec3 nurbsExactNormal = nurbsNormal();\n"
       "  bool nurbsFront = nurbsSeesFront(nurbsExactNormal);\n");
     shaders[vtkShader::Fragment]->SetSource(fragment);
   }
@@ -505,13 +530,17 @@ bool vtkNURBSMapper::HasLook(vtkActor* actor)
 bool vtkNURBSMapper::DrawsExactly(vtkActor* actor)
 {
   return actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
-    (this->ExactFragments || this->HasLook(actor));
+    ((this->ExactFragments && this->Content->FrameRate.LooksForPoints()) || this->HasLook(actor));
 }
 
 std::string vtkNURBSMapper::GetDefines(vtkActor* actor)
 {
   const Internals& c = *this->Content;
   std::string defines = "#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) + "\n";
+  if (actor->GetProperty()->GetRepresentation() == VTK_SURFACE)
+  {
+    defines += "#define NURBS_SPREAD\n";
+  }
   if (this->DrawsExactly(actor))
   {
     defines += "#define NURBS_EXACT\n#define NURBS_MAX_DEGREE " +
@@ -576,9 +605,9 @@ void vtkNURBSMapper::SetMapperShaderParameters(
   const Eigen::Vector3f low = (c.Shift - high.cast<double>()).cast<float>();
   program->SetUniform3f("nurbsShiftHigh", high.data());
   program->SetUniform3f("nurbsShiftLow", low.data());
-  if (this->DrawsExactly(actor))
+  if (actor->GetProperty()->GetRepresentation() == VTK_SURFACE)
   {
-    this->SetExactParameters(window, program);
+    this->SetSurfaceParameters(window, program, actor);
   }
   if (this->HasLook(actor))
   {
@@ -586,7 +615,8 @@ void vtkNURBSMapper::SetMapperShaderParameters(
   }
 }
 
-void vtkNURBSMapper::SetExactParameters(vtkOpenGLRenderWindow* window, vtkShaderProgram* program)
+void vtkNURBSMapper::SetSurfaceParameters(
+  vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor)
 {
   const Internals& c = *this->Content;
   Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
@@ -594,14 +624,20 @@ void vtkNURBSMapper::SetExactParameters(vtkOpenGLRenderWindow* window, vtkShader
   const Eigen::Matrix4d toClip = c.View.ModelToClip * shift;
   Eigen::Matrix4f matrix = toClip.cast<float>(); // column by column, as OpenGL wants it
   program->SetUniformMatrix4x4("nurbsToClip", matrix.data());
-  const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
-  program->SetUniform3f("nurbsDepthAxis", axis.data());
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   const float pixels[4] = { float(viewport[0]), float(viewport[1]), float(viewport[2]),
     float(viewport[3]) };
   program->SetUniform4f("nurbsViewport", pixels);
-  program->SetUniformf("nurbsMargin", static_cast<float>(0.1 + this->PixelError));
+  // Each coarser level is off by four times as much; gaps of some pixels can be filled, not more.
+  const double error = this->PixelError * std::pow(4.0, c.FrameRate.GetCoarserLevels());
+  program->SetUniformf("nurbsMargin", static_cast<float>(std::min(0.1 + error, 4.0)));
+  if (!this->DrawsExactly(actor))
+  {
+    return;
+  }
+  const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
+  program->SetUniform3f("nurbsDepthAxis", axis.data());
   if (c.Samples > 0)
   {
     std::vector<float> places(2 * c.Samples);
@@ -647,7 +683,7 @@ void vtkNURBSMapper::SetLookParameters(
         table->MapValue(range[0] + (range[1] - range[0]) * i / (Colors - 1));
       colors.insert(colors.end(), color, color + 4);
     }
-    c.LookColors.Upload(window, colors.data(), colors.size());
+    c.LookColors.Upload(colors.data(), colors.size());
     program->SetUniformi("nurbsLookTable", c.LookColors.Activate(window));
   }
   const auto set = [&](const char* name, int count, const float* values)
@@ -694,6 +730,19 @@ void vtkNURBSMapper::UpdateSamples(vtkRenderer* renderer)
   }
 }
 
+// Decides what to leave out of this frame, by what the last one took.
+void vtkNURBSMapper::UpdateEconomy(vtkRenderer* renderer)
+{
+  Internals& c = *this->Content;
+  const double asked = renderer->GetSelector() ? 0.0 : renderer->GetRenderWindow()->GetDesiredUpdateRate();
+  const bool exact = c.FrameRate.LooksForPoints();
+  c.FrameRate.Decide(asked, this->InteractiveFrameRate, this->TimeToDraw);
+  if (exact != c.FrameRate.LooksForPoints())
+  {
+    this->SelectionStateChanged.Modified(); // makes new shaders
+  }
+}
+
 void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& c = *this->Content;
@@ -705,6 +754,8 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   this->DrawingVertices = false;
   this->DrawingSelection = false;
   this->UpdateSamples(renderer);
+  this->UpdateEconomy(renderer);
+  const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLHelper& helper = this->Primitives[PrimitiveTris];
   this->UpdateShaders(helper, renderer, actor);
   if (helper.Program)
@@ -716,6 +767,8 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     }
     helper.VAO->Bind(); // a new program has released it
     c.Indices.Bind();
+    const double coarser = c.FrameRate.GetCoarserLevels();
+    helper.Program->SetUniformf("nurbsCoarser", static_cast<float>(coarser));
     for (int shape = 0; shape < nurbs::Tile::ShapeCount; ++shape)
     {
       const int first = c.Textures.GetFirst(shape);
@@ -723,8 +776,14 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
       if (count > 0)
       {
         helper.Program->SetUniformi("nurbsFirstTile", first);
-        c.Indices.Draw(representation, shape, count);
+        c.Indices.Draw(representation, Coarser(shape, static_cast<int>(coarser)), count);
       }
+    }
+    if (c.FrameRate.IsMeasuring())
+    {
+      // Timer queries tell nothing on software renderers, which put the work off.
+      glFinish();
+      this->TimeToDraw = vtkTimerLog::GetUniversalTime() - start;
     }
     c.Indices.Unbind();
     vtkOpenGLCheckErrorMacro("failed after drawing tiles");
@@ -763,6 +822,7 @@ void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;
+  c.Tessellated.ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -792,6 +852,8 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
   {
     this->SetPixelError(mapper->GetPixelError());
     this->SetExactFragments(mapper->GetExactFragments());
+    this->SetUseTessellation(mapper->GetUseTessellation());
+    this->SetInteractiveFrameRate(mapper->GetInteractiveFrameRate());
     this->SetLook(mapper->GetLook());
     this->SetLookTable(mapper->GetLookTable());
     this->SetLookDirection(mapper->GetLookDirection());
@@ -807,6 +869,9 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PixelError: " << this->PixelError << "\n"
      << indent << "ExactFragments: " << this->ExactFragments << "\n"
+     << indent << "UseTessellation: " << this->UseTessellation << "\n"
+     << indent << "DrawsTessellation: " << this->DrawsTessellation << "\n"
+     << indent << "InteractiveFrameRate: " << this->InteractiveFrameRate << "\n"
      << indent << "Look: " << this->Look << "\n"
      << indent << "LookTable: " << this->LookTable.Get() << "\n"
      << indent << "LookDirection: " << this->LookDirection[0] << " " << this->LookDirection[1] << " "

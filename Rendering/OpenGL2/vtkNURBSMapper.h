@@ -18,7 +18,8 @@
  *
  * When control points move, only theirs are sent and only their surfaces evaluated again.
  *
- * Needs OpenGL 3.2. Where the device can't do it, a warning tells why.
+ * Needs OpenGL 3.2. Where the device can't do it, a warning tells why, and the model is drawn by
+ * vtkNURBSTessellator.
  *
  * A mapper's textures live in one window at a time: drawn in another one, it moves there.
  *
@@ -75,6 +76,31 @@ public:
   vtkSetMacro(ExactFragments, bool);
   vtkGetMacro(ExactFragments, bool);
   vtkBooleanMacro(ExactFragments, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether triangles of vtkNURBSTessellator, within PixelError, are drawn instead, even if the device
+   * can do better. Default off. GetDrawsTessellation tells whether the last frame was drawn that way,
+   * for this or because the device can't evaluate the model; then picked cells are triangles.
+   */
+  vtkSetMacro(UseTessellation, bool);
+  vtkGetMacro(UseTessellation, bool);
+  vtkBooleanMacro(UseTessellation, bool);
+  vtkGetMacro(DrawsTessellation, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Frames a second to be reached while the window asks for many, as an interactor does while the
+   * camera moves (vtkRenderWindow::SetDesiredUpdateRate). Where the whole is too slow for it, pixels take
+   * the triangles' points, then what was evaluated is drawn at coarser levels, without evaluating it
+   * again and with all values between levels, so that nothing jumps. Default 15; 0: always the whole.
+   * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 1.5.
+   */
+  vtkSetClampMacro(InteractiveFrameRate, double, 0.0, 1000.0);
+  vtkGetMacro(InteractiveFrameRate, double);
+  double GetCoarserLevels();
   ///@}
 
   /// What surfaces show instead of their colour; see SetLook.
@@ -198,6 +224,9 @@ protected:
 
   double PixelError = 0.5;
   bool ExactFragments = true;
+  bool UseTessellation = false;
+  bool DrawsTessellation = false;
+  double InteractiveFrameRate = 15.0;
   int Look = PLAIN;
   vtkSmartPointer<vtkScalarsToColors> LookTable;
   double LookDirection[3] = { 0.0, 0.0, 1.0 };
@@ -216,11 +245,13 @@ private:
   bool HasLook(vtkActor* actor);
   bool DrawsExactly(vtkActor* actor);
   std::string GetDefines(vtkActor* actor);
-  void SetExactParameters(vtkOpenGLRenderWindow* window, vtkShaderProgram* program);
+  void SetSurfaceParameters(
+    vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void SetLookParameters(
     vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
   void UpdateSamples(vtkRenderer* renderer);
+  void UpdateEconomy(vtkRenderer* renderer);
 
   struct Internals;
   std::unique_ptr<Internals> Content;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays a second through exact models, in one thread: RayBenchmark [--rays N] [--patches N] [FILE...].
-// Without a file: analytic shapes. One line a model (of a file: its largest one) and kind of rays:
-// lines through random points of its box in random directions, and the parallel rays of a picture
-// along x, which meet many planes and cylinders at a grazing angle. "uneven" counts lines along which
-// hits do not enter and leave by turns: none for a sound solid, save at vertices that they meet.
+// Rays a second through exact models, in one thread: RayBenchmark [--rays N] [--patches N]
+// [FILE...]. Without a file: analytic shapes. One line a model (of a file: its largest one) and
+// kind of rays: lines through random points of its box in random directions, and the parallel rays
+// of a picture along x, which meet many planes and cylinders at a grazing angle. "uneven" counts
+// lines along which hits do not enter and leave by turns: none for a sound solid, save at vertices
+// that they meet.
 #include "Measuring.h"
 #include "RayCaster.h"
 #include "vtkNURBSCADReader.h"
@@ -65,7 +66,8 @@ std::vector<nurbs::Ray> RandomLines(const nurbs::Box3& box, int count)
   {
     const nurbs::Vec3 at(part(engine), part(engine), part(engine));
     ray.Direction = nurbs::Vec3(normal(engine), normal(engine), normal(engine)).normalized();
-    ray.Origin = box.min() + at.cwiseProduct(box.sizes()) - 2.0 * box.diagonal().norm() * ray.Direction;
+    ray.Origin =
+      box.min() + at.cwiseProduct(box.sizes()) - 2.0 * box.diagonal().norm() * ray.Direction;
   }
   return rays;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Levels of detail of CAD files by vtkNURBSWaveletLOD: where meshes are open at each level, with each
-wavelet, at mixed levels (budgets and maximum errors), and what changing the level takes.
+"""Levels of detail of CAD files by vtkNURBSWaveletLOD: where meshes are open at each level, with
+each wavelet, at mixed levels (budgets and maximum errors), and what changing the level takes.
 
 Solids are the files whose mesh by vtkNURBSTessellator has no open edge. Run it with the Python that
 VTK was built for, and PYTHONPATH at the build's lib/python3/dist-packages."""
@@ -41,7 +41,8 @@ def open_edges(data):
         _, place = numpy.unique(points, axis=0, return_inverse=True)
         corners = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         corners = place.reshape(-1)[corners]
-        edges = numpy.sort(numpy.concatenate([corners[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+        sides = [corners[:, [k, (k + 1) % 3]] for k in range(3)]
+        edges = numpy.sort(numpy.concatenate(sides), axis=1)
         _, times = numpy.unique(edges, axis=0, return_counts=True)
         count += int((times == 1).sum())
     return count
@@ -107,7 +108,7 @@ def main():
     coarsest = []
     capped = dict.fromkeys(WAVELETS, 0)
     shares = {name: [] for name in WAVELETS}
-    print("| file | solid | levels | triangles | analysis, s | open edges: levels, mixed (each wavelet) |")
+    print("| file | solid | levels | triangles | analysis, s | open edges at levels, mixed ones |")
     print("|---|---|--:|--:|--:|---|")
     for file in bench.models(options.folders, options.only):
         done = measure(file)
@@ -119,7 +120,8 @@ def main():
         levels += first["levels"]
         for name, result in done["wavelets"].items():
             for key in totals[name]:
-                totals[name][key] += result[key] if done["solid"] or key in ("failed", "repaired") else 0
+                if done["solid"] or key in ("failed", "repaired"):
+                    totals[name][key] += result[key]
         coarsest.append(first["seconds"][first["levels"] - 1])
         for name, result in done["wavelets"].items():
             shares[name].append(result["share"])

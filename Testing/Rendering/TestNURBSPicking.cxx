@@ -44,8 +44,8 @@ struct Scene
 
   explicit Scene(int shape)
     : Model(Shape(shape))
-    , Window(vtkSmartPointer<vtkNURBSEGLRenderWindow>::Take(
-        vtkNURBSEGLRenderWindow::Create(200, 200)))
+    , Window(
+        vtkSmartPointer<vtkNURBSEGLRenderWindow>::Take(vtkNURBSEGLRenderWindow::Create(200, 200)))
   {
     this->Mapper->SetInputData(this->Model);
     this->Actor->SetMapper(this->Mapper);

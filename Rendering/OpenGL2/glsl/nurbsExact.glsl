@@ -169,3 +169,46 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, vec2 start, out nurbsFound found
   }
   return false;
 }
+
+// Goes on into the next patch, if the point is beyond a side across which the surface is smooth.
+bool nurbsStepOver(inout nurbsTileInfo tile, int dir, inout vec2 t)
+{
+  int side = t[dir] < 0.0 ? -1 : t[dir] > 1.0 ? 1 : 0;
+  int block = tile.block[dir];
+  float start = texelFetch(nurbsKnots, block).r;
+  float size = texelFetch(nurbsKnots, block + 1).r;
+  int open = int(texelFetch(nurbsKnots, block + 3).r);
+  bool ends = side < 0 ? start <= 0.0 || (open & 1) != 0 : start + size >= 1.0 || (open & 2) != 0;
+  if (side == 0 || ends)
+  {
+    return false;
+  }
+  int next = block + side * (4 + 2 * tile.degree[dir]);
+  float first = texelFetch(nurbsKnots, block + 2).r;
+  float nextFirst = texelFetch(nurbsKnots, next + 2).r;
+  t[dir] = (start + t[dir] * size - texelFetch(nurbsKnots, next).r) / texelFetch(nurbsKnots, next + 1).r;
+  tile.block[dir] = next;
+  tile.point += int(nextFirst - first) * (dir == 0 ? 1 : tile.stride);
+  return true;
+}
+
+// The hit in the patch that the ray meets, which may be the next one.
+bool nurbsFindHit(nurbsRay ray, inout nurbsTileInfo tile, vec2 start, out nurbsFound found)
+{
+  vec2 t = start;
+  for (int hop = 0; hop < 3; ++hop)
+  {
+    if (!nurbsHit(ray, tile, t, found))
+    {
+      return false;
+    }
+    t = found.t;
+    bool overU = nurbsStepOver(tile, 0, t);
+    bool overV = nurbsStepOver(tile, 1, t);
+    if (!overU && !overV)
+    {
+      break;
+    }
+  }
+  return true;
+}

@@ -4,23 +4,50 @@ uniform samplerBuffer nurbsFaceLooks;  // two texels a surface, see vtkNURBSFace
 uniform isamplerBuffer nurbsFaceIds;   // cell and block of a surface
 flat in int nurbsTileIndex;
 in vec2 nurbsT;
+in vec3 nurbsNormalMC;
 
 nurbsTileInfo nurbsFaceTile;
 vec2 nurbsStart; // of the patch in the face's domain, 0 to 1
 vec2 nurbsSize;
 
+void nurbsTakePatch()
+{
+  ivec2 block = nurbsFaceTile.block;
+  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
+  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+}
+
+uniform float nurbsMargin; // pixels by which triangles may be off the surface, and reach over its borders
+mat2 nurbsPerPixel;        // change of t with x and y on screen
+
+// Whether the face's trims leave a point over, or one within so many pixels: neighbours may disagree
+// that much about where their edge is.
+bool nurbsIsUntrimmed(vec2 t, float gap)
+{
+  int trim = nurbsFaceTile.trim;
+  vec2 st = nurbsStart + t * nurbsSize;
+  if (trim < 0 || nurbsInside(trim, st))
+  {
+    return true;
+  }
+  vec2 x = gap * nurbsPerPixel[0] * nurbsSize;
+  vec2 y = gap * nurbsPerPixel[1] * nurbsSize;
+  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
+    nurbsInside(trim, st - y);
+}
+
 #ifdef NURBS_EXACT
 
-uniform float nurbsMargin;   // pixels by which triangles reach over the surface's outline
 uniform vec3 nurbsDepthAxis; // direction in which depth rises, in vertexMC's axes
 
 nurbsFound nurbsHere; // the point that this fragment shows
 float nurbsDepth;     // its depth, 0 to 1
 vec3 nurbsSight;      // direction away from the eye
-mat2 nurbsPerPixel;   // change of t with x and y on screen
 
-void nurbsShow(nurbsRay ray, nurbsFound found)
+void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
 {
+  nurbsFaceTile = tile;
+  nurbsTakePatch();
   nurbsHere = found;
   nurbsPerPixel = inverse(found.pixels);
   nurbsDepth = 0.5 + 0.5 * dot(ray.z, found.jet.h) / dot(ray.w, found.jet.h);
@@ -55,22 +82,6 @@ bool nurbsIsOnPatch(vec2 t)
   return true;
 }
 
-// Whether the face's trims leave a point over, or a place so near that neighbours may disagree about
-// where their edge is.
-bool nurbsIsUntrimmed(vec2 t)
-{
-  int trim = nurbsFaceTile.trim;
-  vec2 st = nurbsStart + t * nurbsSize;
-  if (trim < 0 || nurbsInside(trim, st))
-  {
-    return true;
-  }
-  vec2 x = nurbsGap() * nurbsPerPixel[0] * nurbsSize;
-  vec2 y = nurbsGap() * nurbsPerPixel[1] * nurbsSize;
-  return nurbsInside(trim, st + x) || nurbsInside(trim, st - x) || nurbsInside(trim, st + y) ||
-    nurbsInside(trim, st - y);
-}
-
 #ifdef NURBS_SAMPLES
 
 uniform int nurbsSampleCount;
@@ -82,13 +93,14 @@ bool nurbsFindSamples()
 {
   int mask = 0;
   nurbsFound center;
-  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
-  bool hit = nurbsHit(ray, nurbsFaceTile, nurbsT, center);
+  nurbsTileInfo tile = nurbsFaceTile;
+  nurbsRay ray = nurbsGetRay(tile.surface, gl_FragCoord.xy);
+  bool hit = nurbsFindHit(ray, tile, nurbsT, center);
   bool steep = true;
   float coverage = 0.5;
   if (hit)
   {
-    nurbsShow(ray, center);
+    nurbsShow(ray, tile, center);
     vec4 h = center.jet.h;
     vec3 su = center.jet.hu.xyz - center.jet.hu.w / h.w * h.xyz;
     vec3 sv = center.jet.hv.xyz - center.jet.hv.w / h.w * h.xyz;
@@ -106,19 +118,24 @@ bool nurbsFindSamples()
     if (steep)
     {
       nurbsFound found;
-      ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy + offset);
-      if (!nurbsHit(ray, nurbsFaceTile, t, found))
+      tile = nurbsFaceTile;
+      ray = nurbsGetRay(tile.surface, gl_FragCoord.xy + offset);
+      if (!nurbsFindHit(ray, tile, t, found))
       {
         continue;
       }
-      t = found.t;
+      // Parameters of the face's domain go through all patches alike.
+      t = (vec2(texelFetch(nurbsKnots, tile.block.x).r, texelFetch(nurbsKnots, tile.block.y).r) +
+            found.t * vec2(texelFetch(nurbsKnots, tile.block.x + 1).r,
+                        texelFetch(nurbsKnots, tile.block.y + 1).r) - nurbsStart) / nurbsSize;
       if (!shown)
       {
-        nurbsShow(ray, found);
+        nurbsShow(ray, tile, found);
+        t = found.t;
         shown = true;
       }
     }
-    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t) : coverage > 0.5;
+    bool untrimmed = steep || (coverage > 0.0 && coverage < 1.0) ? nurbsIsUntrimmed(t, nurbsGap()) : coverage > 0.5;
     if (untrimmed && nurbsIsOnPatch(t))
     {
       mask |= 1 << i;
@@ -130,15 +147,15 @@ bool nurbsFindSamples()
 
 #endif
 
-// The exact unit normal, or what the triangles say where it vanishes.
-vec3 nurbsNormal(vec3 interpolated)
+// The exact unit normal, outwards, or what the triangles say where it vanishes.
+vec3 nurbsNormal()
 {
   vec4 h = nurbsHere.jet.h, hu = nurbsHere.jet.hu, hv = nurbsHere.jet.hv;
   vec3 normal = cross(hu.xyz - hu.w / h.w * h.xyz, hv.xyz - hv.w / h.w * h.xyz);
   float size = length(normal);
   if (size == 0.0)
   {
-    return interpolated;
+    return normalize(nurbsNormalMC);
   }
   return (nurbsFaceTile.reversed ? -normal : normal) / size;
 }
@@ -157,19 +174,19 @@ bool nurbsIsSeen = true; // whether the pixel sees the face
 void nurbsBeginFragment()
 {
   nurbsFaceTile = nurbsGetTile(nurbsTileIndex);
-  ivec2 block = nurbsFaceTile.block;
-  nurbsStart = vec2(texelFetch(nurbsKnots, block.x).r, texelFetch(nurbsKnots, block.y).r);
-  nurbsSize = vec2(texelFetch(nurbsKnots, block.x + 1).r, texelFetch(nurbsKnots, block.y + 1).r);
+  nurbsTakePatch();
 #ifdef NURBS_SAMPLES
   nurbsIsSeen = nurbsFindSamples();
 #elif defined(NURBS_EXACT)
-  nurbsRay ray = nurbsGetRay(nurbsFaceTile.surface, gl_FragCoord.xy);
+  nurbsTileInfo tile = nurbsFaceTile;
+  nurbsRay ray = nurbsGetRay(tile.surface, gl_FragCoord.xy);
   nurbsFound found;
-  nurbsIsSeen = nurbsHit(ray, nurbsFaceTile, nurbsT, found);
-  nurbsShow(ray, found);
-  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t);
+  nurbsIsSeen = nurbsFindHit(ray, tile, nurbsT, found);
+  nurbsShow(ray, tile, found);
+  nurbsIsSeen = nurbsIsSeen && nurbsIsOnPatch(found.t) && nurbsIsUntrimmed(found.t, nurbsGap());
 #else
-  nurbsIsSeen = nurbsFaceTile.trim < 0 || nurbsInside(nurbsFaceTile.trim, nurbsStart + nurbsT * nurbsSize);
+  nurbsPerPixel = mat2(dFdx(nurbsT), dFdy(nurbsT));
+  nurbsIsSeen = nurbsIsUntrimmed(nurbsT, nurbsMargin);
 #endif
 }
 

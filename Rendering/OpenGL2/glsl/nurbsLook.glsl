@@ -64,7 +64,7 @@ float nurbsPhaseWidth; // how many of them a pixel sees
 // Sets the variables above; called in uniform control flow.
 void nurbsBeginLook()
 {
-  vec3 normal = nurbsNormal(vec3(0.0, 0.0, 1.0));
+  vec3 normal = nurbsNormal();
   vec3 line = nurbsLookKind == 5 ? reflect(normalize(nurbsSight), normal) : normal;
   nurbsPhase = acos(clamp(dot(line, nurbsLookDirection), -1.0, 1.0)) / 3.14159265 * nurbsStripes;
   nurbsPhaseWidth = fwidth(nurbsPhase);
@@ -86,7 +86,7 @@ float nurbsLine(float distance)
 
 vec3 nurbsLook(vec3 color)
 {
-  vec3 normal = nurbsNormal(vec3(0.0, 0.0, 1.0));
+  vec3 normal = nurbsNormal();
   if (nurbsLookKind >= 1 && nurbsLookKind <= 4)
   {
     vec2 curvature = nurbsCurvature(normal);
