@@ -75,7 +75,7 @@ bool vtkNURBSWaveletTextures::Internals::Run(vtkOpenGLRenderWindow* window, vtkT
     };
     texels.insert(texels.end(), { r.X, r.Y, intervals(0), intervals(1) });
   }
-  if (!this->Rectangles.Upload(window, texels.data(), texels.size() * sizeof(int)))
+  if (!this->Rectangles.Upload(texels.data(), texels.size() * sizeof(int)))
   {
     this->Error = "the device can't hold a list of " + std::to_string(rectangles.size()) + " grids";
     return false;

@@ -65,7 +65,7 @@ double Median(Work&& work)
 double Evaluation(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table, int log)
 {
   vtkNURBSTileTextures textures;
-  if (!textures.SetTable(window, table, { vtkNURBSTileTextures::SurfaceInfo() }))
+  if (!textures.SetTable(table, { vtkNURBSTileTextures::SurfaceInfo() }))
   {
     std::printf("%s\n", textures.GetError().c_str());
     std::exit(1);
