@@ -22,26 +22,6 @@ constexpr int GapPasses = 3;        // which can be repeated as often as this.
 
 } // namespace
 
-double TrimParameter(const TrimCurve& curve, const Interval& edge, double t)
-{
-  const Interval own = curve.Geometry.Domain();
-  if (own.Min == edge.Min && own.Max == edge.Max)
-  {
-    return t;
-  }
-  return own.Clamp(own.Min + (t - edge.Min) * (own.Length() / edge.Length()));
-}
-
-Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses)
-{
-  const CurveView<3>& c = model.Edges[edge].Geometry;
-  if (c.Count > 1 || uses.empty())
-  {
-    return c.Domain();
-  }
-  return model.TrimCurves[uses.front().Curve].Geometry.Domain();
-}
-
 namespace
 {
 // Parameters in (0, 1) where a Bezier function changes sign, by subdivision.

@@ -8,18 +8,11 @@
 /// by more than the tolerance.
 #pragma once
 
-#include "Model.h"
+#include "CompletedModel.h"
 #include "SurfaceTree.h"
 
 namespace nurbs
 {
-
-/// One place where a loop of a face runs along an edge.
-struct EdgeUse
-{
-  std::int64_t Face = -1;
-  std::int64_t Curve = -1; ///< Index into Model::TrimCurves.
-};
 
 /// An edge as a polyline.
 struct EdgePolyline
@@ -39,12 +32,6 @@ struct FaceContext
   const SurfaceTree* Tree = nullptr; ///< Null: planar face, any chord lies on it.
   double Tolerance = 0.0;
 };
-
-/// The parameter of a trim curve that belongs to an edge's parameter (affine if domains differ).
-double TrimParameter(const TrimCurve& curve, const Interval& edge, double t);
-
-/// The parameter interval of an edge: its 3D curve's domain, or its first trim curve's.
-Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses);
 
 /// Discretises one edge.
 /// @param extra parameters that must be vertices, too (from faces that could not certify without).

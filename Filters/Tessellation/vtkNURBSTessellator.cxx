@@ -2,9 +2,6 @@
 #include "vtkNURBSTessellator.h"
 
 #include "vtkCamera.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkDataAssembly.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -12,11 +9,9 @@
 #include "vtkNURBSFaceExtent.h"
 #include "vtkNURBSMeshOutput.h"
 #include "vtkNURBSModel.h"
-#include "vtkNURBSModelView.h"
+#include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
@@ -52,71 +47,6 @@ double Now()
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-// Appends a model to one that has others already.
-void AppendModel(const nurbs::Model& part, nurbs::Model& all)
-{
-  const auto loops = std::int64_t(all.Loops.size());
-  const auto curves = std::int64_t(all.TrimCurves.size());
-  const auto edges = std::int64_t(all.Edges.size());
-  const auto vertices = std::int64_t(all.Vertices.size());
-  for (nurbs::Face face : part.Faces)
-  {
-    face.FirstLoop += loops;
-    all.Faces.push_back(face);
-  }
-  for (nurbs::TrimLoop loop : part.Loops)
-  {
-    loop.FirstCurve += curves;
-    all.Loops.push_back(loop);
-  }
-  for (nurbs::TrimCurve curve : part.TrimCurves)
-  {
-    curve.Edge = curve.Edge < 0 ? -1 : curve.Edge + edges;
-    all.TrimCurves.push_back(curve);
-  }
-  for (nurbs::Edge edge : part.Edges)
-  {
-    for (std::int64_t& vertex : edge.Vertex)
-    {
-      vertex = vertex < 0 ? -1 : vertex + vertices;
-    }
-    all.Edges.push_back(edge);
-  }
-  all.Vertices.insert(all.Vertices.end(), part.Vertices.begin(), part.Vertices.end());
-}
-
-vtkPolyData* NewLeaf(vtkDataObject* output, vtkCompositeDataIterator* at)
-{
-  auto* composite = vtkCompositeDataSet::SafeDownCast(output);
-  if (!composite)
-  {
-    return vtkPolyData::SafeDownCast(output);
-  }
-  vtkNew<vtkPolyData> leaf;
-  composite->SetDataSet(at, leaf);
-  return leaf;
-}
-
-void CopyTree(vtkDataObject* input, vtkDataObject* output)
-{
-  auto* from = vtkCompositeDataSet::SafeDownCast(input);
-  auto* to = vtkCompositeDataSet::SafeDownCast(output);
-  if (!from || !to)
-  {
-    output->Initialize();
-    return;
-  }
-  to->CopyStructure(from);
-  auto* models = vtkPartitionedDataSetCollection::SafeDownCast(from);
-  auto* meshes = vtkPartitionedDataSetCollection::SafeDownCast(to);
-  if (models && meshes && models->GetDataAssembly())
-  {
-    vtkNew<vtkDataAssembly> assembly;
-    assembly->DeepCopy(models->GetDataAssembly());
-    meshes->SetDataAssembly(assembly);
-  }
-}
-
 const char* ModeName(int mode)
 {
   return mode == vtkNURBSTessellator::PIXELS
@@ -129,16 +59,7 @@ const char* ModeName(int mode)
 // What one Update works on.
 struct vtkNURBSTessellator::Work
 {
-  struct Leaf
-  {
-    vtkUnstructuredGrid* Grid = nullptr;
-    std::shared_ptr<const vtkNURBSModelView> View;
-    std::size_t FirstFace = 0;
-    std::int64_t FirstEdge = 0;
-  };
-  std::vector<Leaf> Leaves;
-  nurbs::Model Model;
-  std::vector<std::string> FaceErrors;
+  vtkNURBSModelPool Pool;
   nurbs::TessellatorOptions Options;
   nurbs::TessellationResult Result;
 };
@@ -171,75 +92,18 @@ int vtkNURBSTessellator::FillInputPortInformation(int, vtkInformation* info)
 int vtkNURBSTessellator::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  if (!input)
-  {
-    return 0;
-  }
-  const bool composite = input->IsA("vtkCompositeDataSet");
-  const char* type = composite ? input->GetClassName() : "vtkPolyData";
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkInformation* info = outputs->GetInformationObject(port);
-    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-    if (output && std::string(output->GetClassName()) == type)
-    {
-      continue;
-    }
-    vtkSmartPointer<vtkDataObject> made;
-    made.TakeReference(composite ? input->NewInstance() : vtkPolyData::New());
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
-  return 1;
+  return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 2) ? 1 : 0;
 }
 
 // The models of the input in one, with offset indices.
 bool vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
 {
-  const auto add = [&](vtkDataObject* leaf, unsigned int index) {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
-    if (grid && grid->GetNumberOfCells() == 0)
-    {
-      return true;
-    }
-    if (!grid || !vtkNURBSModel::IsModel(grid))
-    {
-      vtkErrorMacro(
-        "The input" << (input == leaf ? std::string() : "'s data set " + std::to_string(index))
-                    << " is not a NURBS model: "
-                    << (grid ? "it lacks the arrays that describe surfaces"
-                             : "it is no vtkUnstructuredGrid"));
-      return false;
-    }
-    Work::Leaf entry;
-    entry.Grid = grid;
-    entry.View = vtkNURBSModel::View(grid);
-    entry.FirstFace = work.Model.Faces.size();
-    entry.FirstEdge = std::int64_t(work.Model.Edges.size());
-    const nurbs::Model& model = entry.View->GetModel();
-    AppendModel(model, work.Model);
-    for (std::size_t f = 0; f < model.Faces.size(); ++f)
-    {
-      work.FaceErrors.push_back(entry.View->GetFaceError(vtkIdType(f)));
-    }
-    work.Leaves.push_back(std::move(entry));
-    return true;
-  };
-  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (!composite)
+  const std::string problem = work.Pool.Collect(input);
+  if (!problem.empty())
   {
-    return add(input, 0);
+    vtkErrorMacro(<< problem);
   }
-  vtkSmartPointer<vtkCompositeDataIterator> at;
-  at.TakeReference(composite->NewIterator());
-  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
-  {
-    if (!add(at->GetCurrentDataObject(), at->GetCurrentFlatIndex()))
-    {
-      return false;
-    }
-  }
-  return true;
+  return problem.empty();
 }
 
 bool vtkNURBSTessellator::FillOptions(Work& work)
@@ -272,7 +136,7 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
     return true;
   }
   const std::vector<nurbs::Box3> boxes =
-    vtkNURBSFaceExtent::FaceBoxes(work.Model, work.FaceErrors, vtkNURBSParallelFor);
+    vtkNURBSFaceExtent::FaceBoxes(work.Pool.Model, work.Pool.FaceErrors, vtkNURBSParallelFor);
   const double diagonal = vtkNURBSFaceExtent::Diagonal(boxes);
   options.Tolerance = (diagonal > 0.0 ? diagonal : 1.0) * this->Tolerance;
   if (this->ToleranceMode == RELATIVE)
@@ -311,9 +175,9 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
   };
   report();
   const bool quick =
-    work.Model.Faces.size() <= QuickFaces && ControlPoints(work.Model) <= QuickPoints;
+    work.Pool.Model.Faces.size() <= QuickFaces && ControlPoints(work.Pool.Model) <= QuickPoints;
   auto result = std::async(quick ? std::launch::deferred : std::launch::async,
-    [&work]() { return nurbs::Tessellate(work.Model, work.FaceErrors, work.Options); });
+    [&work]() { return nurbs::Tessellate(work.Pool.Model, work.Pool.FaceErrors, work.Options); });
   while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
   {
     report();
@@ -334,28 +198,18 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
 void vtkNURBSTessellator::FillOutputs(
   Work& work, vtkDataObject* input, vtkInformationVector* outputs)
 {
-  vtkDataObject* meshes = vtkDataObject::GetData(outputs, 0);
-  vtkDataObject* lines = vtkDataObject::GetData(outputs, 1);
-  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  vtkSmartPointer<vtkCompositeDataIterator> at;
-  if (composite)
-  {
-    at.TakeReference(composite->NewIterator());
-    at->InitTraversal();
-  }
+  const std::vector<vtkPolyData*> meshes =
+    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 0));
+  const std::vector<vtkPolyData*> lines =
+    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 1));
   std::size_t line = 0;
-  for (std::size_t k = 0; k < work.Leaves.size(); ++k)
+  for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
   {
-    const Work::Leaf& leaf = work.Leaves[k];
-    while (at && at->GetCurrentDataObject() != leaf.Grid)
-    {
-      at->GoToNextItem();
-    }
+    const vtkNURBSModelPool::Leaf& leaf = work.Pool.Leaves[k];
     vtkNURBSMeshOutput::Range range;
     range.Result = &work.Result;
     range.FirstMesh = leaf.FirstFace;
-    range.LastMesh =
-      k + 1 < work.Leaves.size() ? work.Leaves[k + 1].FirstFace : work.Result.Meshes.size();
+    range.LastMesh = leaf.LastFace;
     range.FirstLine = line;
     while (line < work.Result.Polylines.size() &&
       work.Result.Polylines[line].Face < std::int64_t(range.LastMesh))
@@ -368,15 +222,10 @@ void vtkNURBSTessellator::FillOutputs(
       ? nullptr
       : work.Options.FaceTolerances.data() + range.FirstMesh;
     range.MergePoints = this->MergePoints;
-    vtkPolyData* mesh = NewLeaf(meshes, at);
-    vtkNURBSMeshOutput::FillMesh(range, leaf.Grid, mesh);
-    vtkNURBSMeshOutput::FillLines(range, leaf.Grid, leaf.FirstEdge, NewLeaf(lines, at));
-    this->NumberOfTriangles += mesh->GetNumberOfPolys();
-    this->NumberOfPoints += mesh->GetNumberOfPoints();
-    if (at)
-    {
-      at->GoToNextItem();
-    }
+    vtkNURBSMeshOutput::FillMesh(range, leaf.Grid, meshes[k]);
+    vtkNURBSMeshOutput::FillLines(range, leaf.Grid, leaf.FirstEdge, lines[k]);
+    this->NumberOfTriangles += meshes[k]->GetNumberOfPolys();
+    this->NumberOfPoints += meshes[k]->GetNumberOfPoints();
   }
 }
 
@@ -390,7 +239,7 @@ void vtkNURBSTessellator::Summarize(const Work& work)
   std::size_t leaf = 0;
   for (std::size_t f = 0; f < work.Result.Meshes.size(); ++f)
   {
-    while (leaf + 1 < work.Leaves.size() && work.Leaves[leaf + 1].FirstFace <= f)
+    while (leaf + 1 < work.Pool.Leaves.size() && work.Pool.Leaves[leaf + 1].FirstFace <= f)
     {
       ++leaf;
     }
@@ -407,7 +256,7 @@ void vtkNURBSTessellator::Summarize(const Work& work)
     {
       continue;
     }
-    const Work::Leaf& of = work.Leaves[leaf];
+    const vtkNURBSModelPool::Leaf& of = work.Pool.Leaves[leaf];
     const auto cell = vtkIdType(f - of.FirstFace);
     named << "\n  face " << vtkNURBSModel::GetFaceId(of.Grid, cell)
           << (mesh.Status == nurbs::FaceStatus::Failed ? " failed: " : " capped: ") << mesh.Message;
@@ -434,7 +283,7 @@ int vtkNURBSTessellator::RequestData(
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   for (int port = 0; port < 2; ++port)
   {
-    CopyTree(input, vtkDataObject::GetData(outputs, port));
+    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
   const vtkNURBSParallelScope parallel;
   Work work;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A user's program with the kernels alone.
 #include "Tessellator.h"
+#include "WaveletModel.h"
 
 #include <cstdio>
 
@@ -10,5 +11,8 @@ int main()
   options.Tolerance = 1e-3;
   const nurbs::TessellationResult result = nurbs::Tessellate(nurbs::Model(), {}, options);
   std::printf("%zu faces\n", result.Meshes.size());
-  return result.Meshes.empty() ? 0 : 1;
+  nurbs::WaveletOptions levels;
+  levels.Finest.Tolerance = 1e-3;
+  const nurbs::WaveletModel model(nurbs::Model(), {}, levels);
+  return result.Meshes.empty() && model.Levels() == 1 ? 0 : 1;
 }

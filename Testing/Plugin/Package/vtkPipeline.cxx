@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A user's program: an exact sphere, tessellated.
+// A user's program: an exact sphere, tessellated, and at a coarse level of detail.
 #include <vtkNURBSShapeSource.h>
 #include <vtkNURBSTessellator.h>
+#include <vtkNURBSWaveletLOD.h>
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -17,5 +18,9 @@ int main()
   auto* mesh = vtkPolyData::SafeDownCast(tessellator->GetOutputDataObject(0));
   const long long triangles = mesh ? mesh->GetNumberOfPolys() : 0;
   std::printf("%lld triangles\n", triangles);
-  return triangles > 0 ? 0 : 1;
+  vtkNew<vtkNURBSWaveletLOD> levels;
+  levels->SetInputConnection(shape->GetOutputPort());
+  levels->SetLevel(4);
+  levels->Update();
+  return triangles > 0 && levels->GetNumberOfTriangles() > 0 ? 0 : 1;
 }

@@ -85,6 +85,96 @@ void AddNaturalBoundary(CompletedModel& out, Face& face)
   out.Data.TrimCurves.insert(out.Data.TrimCurves.end(), sides, sides + 4);
 }
 
+// A side of a natural boundary, sampled evenly.
+constexpr int SideSamples = 9;
+struct Side
+{
+  std::int64_t Curve;
+  double Order; // The middle's coordinate in some direction.
+  Vec3 Points[SideSamples];
+};
+
+double Apart(const Side& a, const Side& b, bool backwards)
+{
+  double apart = 0.0;
+  for (int k = 0; k < SideSamples; ++k)
+  {
+    const Vec3& other = b.Points[backwards ? SideSamples - 1 - k : k];
+    apart = std::max(apart, (a.Points[k] - other).norm());
+  }
+  return apart;
+}
+
+// Gives sides of different faces that coincide one edge: of the loops from `firstLoop` on, which
+// are natural boundaries.
+void MatchSides(CompletedModel& out, std::size_t firstLoop, double tolerance)
+{
+  Model& model = out.Data;
+  std::vector<std::int64_t> uses(model.Edges.size(), 0);
+  for (const TrimCurve& curve : model.TrimCurves)
+  {
+    if (curve.Edge >= 0)
+    {
+      ++uses[curve.Edge];
+    }
+  }
+  std::vector<Side> sides;
+  for (const Face& face : model.Faces)
+  {
+    if (face.LoopCount == 0 || std::size_t(face.FirstLoop) < firstLoop)
+    {
+      continue;
+    }
+    const TrimLoop& loop = model.Loops[face.FirstLoop];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      const TrimCurve& curve = model.TrimCurves[c];
+      if (IsDegenerate(model.Edges[curve.Edge]) || uses[curve.Edge] != 1)
+      {
+        continue;
+      }
+      Side side;
+      side.Curve = c;
+      const Interval domain = curve.Geometry.Domain();
+      for (int k = 0; k < SideSamples; ++k)
+      {
+        const Vec2 uv =
+          Evaluate(curve.Geometry, domain.Min + k * domain.Length() / (SideSamples - 1));
+        side.Points[k] = Evaluate(face.Geometry, uv[0], uv[1]);
+      }
+      side.Order = side.Points[SideSamples / 2].dot(Vec3(0.564, 0.311, 0.765));
+      sides.push_back(side);
+    }
+  }
+  std::stable_sort(
+    sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.Order < b.Order; });
+  std::vector<char> taken(sides.size(), 0);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    for (std::size_t j = i + 1;
+         j < sides.size() && !taken[i] && sides[j].Order - sides[i].Order <= tolerance; ++j)
+    {
+      const bool forward = Apart(sides[i], sides[j], false) <= tolerance;
+      const bool backward = !forward && Apart(sides[i], sides[j], true) <= tolerance;
+      if (taken[j] || (!forward && !backward))
+      {
+        continue;
+      }
+      TrimCurve& curve = model.TrimCurves[sides[j].Curve];
+      if (backward)
+      {
+        const Vec2 start = curve.Geometry.Point(1);
+        const Vec2 end = curve.Geometry.Point(0);
+        const bool reversed = !curve.Reversed;
+        curve = StraightCurve(out, start, end, curve.Geometry.Domain());
+        curve.Reversed = reversed;
+      }
+      curve.Edge = model.TrimCurves[sides[i].Curve].Edge;
+      taken[i] = taken[j] = 1;
+    }
+  }
+}
+
 struct UnionFind
 {
   std::vector<std::int64_t> Parent;
@@ -184,17 +274,23 @@ void CompleteVertices(CompletedModel& out, const std::vector<std::string>& faceE
 }
 } // namespace
 
-CompletedModel CompleteModel(const Model& model, const std::vector<std::string>& faceErrors)
+CompletedModel CompleteModel(
+  const Model& model, const std::vector<std::string>& faceErrors, double sideTolerance)
 {
   CompletedModel out;
   out.Data = model;
   out.KnownEdges = std::int64_t(model.Edges.size());
+  const std::size_t knownLoops = model.Loops.size();
   for (std::size_t f = 0; f < model.Faces.size(); ++f)
   {
     if (faceErrors[f].empty() && model.Faces[f].LoopCount == 0)
     {
       AddNaturalBoundary(out, out.Data.Faces[f]);
     }
+  }
+  if (sideTolerance >= 0.0)
+  {
+    MatchSides(out, knownLoops, sideTolerance);
   }
   for (TrimCurve& curve : out.Data.TrimCurves)
   {
@@ -205,6 +301,26 @@ CompletedModel CompleteModel(const Model& model, const std::vector<std::string>&
   }
   CompleteVertices(out, faceErrors);
   return out;
+}
+
+double TrimParameter(const TrimCurve& curve, const Interval& edge, double t)
+{
+  const Interval own = curve.Geometry.Domain();
+  if (own.Min == edge.Min && own.Max == edge.Max)
+  {
+    return t;
+  }
+  return own.Clamp(own.Min + (t - edge.Min) * (own.Length() / edge.Length()));
+}
+
+Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses)
+{
+  const CurveView<3>& c = model.Edges[edge].Geometry;
+  if (c.Count > 1 || uses.empty())
+  {
+    return c.Domain();
+  }
+  return model.TrimCurves[uses.front().Curve].Geometry.Domain();
 }
 
 // Bound of the length of an edge between its vertices.
@@ -227,7 +343,7 @@ void CollapseShortEdges(CompletedModel& out, const std::vector<double>& shortest
   for (std::size_t e = 0; e < length.size(); ++e)
   {
     const Edge& edge = model.Edges[e];
-    if (edge.Geometry.Count > 1 && shortest[e] > 0.0 && edge.Vertex[0] != edge.Vertex[1])
+    if (edge.Geometry.Count > 1 && shortest[e] > 0.0)
     {
       const double bound = LengthBound(model, edge);
       length[e] = bound <= shortest[e] ? bound : -1.0;

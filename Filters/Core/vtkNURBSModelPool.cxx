@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSModelPool.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataAssembly.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+// Appends a model to one that has others already.
+void AppendModel(const nurbs::Model& part, nurbs::Model& all)
+{
+  const auto loops = std::int64_t(all.Loops.size());
+  const auto curves = std::int64_t(all.TrimCurves.size());
+  const auto edges = std::int64_t(all.Edges.size());
+  const auto vertices = std::int64_t(all.Vertices.size());
+  for (nurbs::Face face : part.Faces)
+  {
+    face.FirstLoop += loops;
+    all.Faces.push_back(face);
+  }
+  for (nurbs::TrimLoop loop : part.Loops)
+  {
+    loop.FirstCurve += curves;
+    all.Loops.push_back(loop);
+  }
+  for (nurbs::TrimCurve curve : part.TrimCurves)
+  {
+    curve.Edge = curve.Edge < 0 ? -1 : curve.Edge + edges;
+    all.TrimCurves.push_back(curve);
+  }
+  for (nurbs::Edge edge : part.Edges)
+  {
+    for (std::int64_t& vertex : edge.Vertex)
+    {
+      vertex = vertex < 0 ? -1 : vertex + vertices;
+    }
+    all.Edges.push_back(edge);
+  }
+  all.Vertices.insert(all.Vertices.end(), part.Vertices.begin(), part.Vertices.end());
+}
+
+// Calls visit(leaf, flat index) until it returns false.
+template <typename F>
+void VisitLeaves(vtkDataObject* input, F visit)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
+  if (!composite)
+  {
+    visit(input, 0u);
+    return;
+  }
+  vtkSmartPointer<vtkCompositeDataIterator> at;
+  at.TakeReference(composite->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    if (!visit(at->GetCurrentDataObject(), at->GetCurrentFlatIndex()))
+    {
+      return;
+    }
+  }
+}
+
+bool IsEmptyGrid(vtkDataObject* leaf)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
+  return grid && grid->GetNumberOfCells() == 0;
+}
+
+} // namespace
+
+std::string vtkNURBSModelPool::Collect(vtkDataObject* input)
+{
+  std::string problem;
+  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int index) {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
+    if (IsEmptyGrid(leaf))
+    {
+      return true;
+    }
+    if (!grid || !vtkNURBSModel::IsModel(grid))
+    {
+      problem = "The input" +
+        (input == leaf ? std::string() : "'s data set " + std::to_string(index)) +
+        " is not a NURBS model: " +
+        (grid ? "it lacks the arrays that describe surfaces" : "it is no vtkUnstructuredGrid");
+      return false;
+    }
+    Leaf entry;
+    entry.Grid = grid;
+    entry.Time = grid->GetMTime();
+    entry.View = vtkNURBSModel::View(grid);
+    entry.FirstFace = this->Model.Faces.size();
+    entry.FirstEdge = std::int64_t(this->Model.Edges.size());
+    const nurbs::Model& model = entry.View->GetModel();
+    AppendModel(model, this->Model);
+    entry.LastFace = this->Model.Faces.size();
+    for (std::size_t f = 0; f < model.Faces.size(); ++f)
+    {
+      this->FaceErrors.push_back(entry.View->GetFaceError(vtkIdType(f)));
+    }
+    this->Leaves.push_back(std::move(entry));
+    return true;
+  });
+  return problem;
+}
+
+bool vtkNURBSModelPool::IsUpToDate(vtkDataObject* input) const
+{
+  std::size_t next = 0;
+  bool same = true;
+  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int) {
+    if (!IsEmptyGrid(leaf))
+    {
+      same = next < this->Leaves.size() && this->Leaves[next].Grid == leaf &&
+        this->Leaves[next].Time == leaf->GetMTime();
+      ++next;
+    }
+    return same;
+  });
+  return same && next == this->Leaves.size();
+}
+
+bool vtkNURBSModelPool::MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports)
+{
+  if (!input)
+  {
+    return false;
+  }
+  const bool composite = input->IsA("vtkCompositeDataSet");
+  const char* type = composite ? input->GetClassName() : "vtkPolyData";
+  for (int port = 0; port < ports; ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+    if (output && std::string(output->GetClassName()) == type)
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkDataObject> made;
+    made.TakeReference(composite ? input->NewInstance() : vtkPolyData::New());
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return true;
+}
+
+void vtkNURBSModelPool::CopyTree(vtkDataObject* input, vtkDataObject* output)
+{
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(output);
+  if (!from || !to)
+  {
+    output->Initialize();
+    return;
+  }
+  to->CopyStructure(from);
+  auto* models = vtkPartitionedDataSetCollection::SafeDownCast(from);
+  auto* meshes = vtkPartitionedDataSetCollection::SafeDownCast(to);
+  if (models && meshes && models->GetDataAssembly())
+  {
+    vtkNew<vtkDataAssembly> assembly;
+    assembly->DeepCopy(models->GetDataAssembly());
+    meshes->SetDataAssembly(assembly);
+  }
+}
+
+std::vector<vtkPolyData*> vtkNURBSModelPool::MakeLeaves(
+  vtkDataObject* input, vtkDataObject* output) const
+{
+  std::vector<vtkPolyData*> out;
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(output);
+  if (!from || !to)
+  {
+    out.assign(this->Leaves.size(), vtkPolyData::SafeDownCast(output));
+    return out;
+  }
+  vtkSmartPointer<vtkCompositeDataIterator> at;
+  at.TakeReference(from->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    if (!IsEmptyGrid(at->GetCurrentDataObject()))
+    {
+      vtkNew<vtkPolyData> leaf;
+      to->SetDataSet(at, leaf);
+      out.push_back(leaf);
+    }
+  }
+  return out;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkNURBSModelPool.h
+ * @brief All models of an input in one, for filters that turn models into polygonal data.
+ *
+ * An input is a vtkUnstructuredGrid or a composite data set of them; the output is a vtkPolyData,
+ * or a composite of the input's type and structure with one vtkPolyData a model.
+ */
+#ifndef vtkNURBSModelPool_h
+#define vtkNURBSModelPool_h
+
+#include "Model.h"
+#include "vtkNURBSFiltersCoreModule.h" // For export macro
+#include "vtkType.h"                   // For vtkMTimeType
+
+#include <memory> // For std::shared_ptr
+
+class vtkDataObject;
+class vtkInformationVector;
+class vtkNURBSModelView;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+/// The models of one input; indices of the faces, loops, curves and edges go on from model to
+/// model.
+class VTKNURBSFILTERSCORE_EXPORT vtkNURBSModelPool
+{
+public:
+  /// One model of the input.
+  struct Leaf
+  {
+    vtkUnstructuredGrid* Grid = nullptr;
+    vtkMTimeType Time = 0; ///< The grid's, when it was collected.
+    std::shared_ptr<const vtkNURBSModelView> View;
+    std::size_t FirstFace = 0, LastFace = 0;
+    std::int64_t FirstEdge = 0;
+  };
+
+  std::vector<Leaf> Leaves; ///< Without grids that have no cell.
+  nurbs::Model Model;
+  std::vector<std::string> FaceErrors; ///< One a face: why it can't be used, or "".
+
+  /// Collects the models. Returns what is wrong with the input, "" if nothing is.
+  std::string Collect(vtkDataObject* input);
+  /// True if the input still has the grids that were collected, and none was modified since.
+  bool IsUpToDate(vtkDataObject* input) const;
+
+  /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject.
+  /// False: there is no input.
+  static bool MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports);
+  /// Empties an output and gives it the input's structure and assembly.
+  static void CopyTree(vtkDataObject* input, vtkDataObject* output);
+  /// The output's data of every leaf, in order; made new in a composite.
+  std::vector<vtkPolyData*> MakeLeaves(vtkDataObject* input, vtkDataObject* output) const;
+};
+
+#endif

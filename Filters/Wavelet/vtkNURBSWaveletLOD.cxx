@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSWaveletLOD.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNURBSLevelOutput.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSModelPool.h"
+#include "vtkNURBSParallel.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <sstream>
+
+vtkStandardNewMacro(vtkNURBSWaveletLOD);
+
+namespace
+{
+
+constexpr int MaxNamedFaces = 8; // in the warning
+constexpr std::chrono::milliseconds ProgressInterval(20);
+constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
+
+double Now()
+{
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+// What is kept from one Update to the next, and what it was made with.
+struct vtkNURBSWaveletLOD::Pyramids
+{
+  vtkNURBSModelPool Pool;
+  double Diagonal = 1.0;
+  nurbs::WaveletOptions Options;
+  std::unique_ptr<nurbs::WaveletModel> Model;
+};
+
+struct vtkNURBSWaveletLOD::Meshes
+{
+  nurbs::WaveletMeshes Result;
+  double Limit = 0.0;
+};
+
+vtkNURBSWaveletLOD::vtkNURBSWaveletLOD() = default;
+vtkNURBSWaveletLOD::~vtkNURBSWaveletLOD() = default;
+
+int vtkNURBSWaveletLOD::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkNURBSWaveletLOD::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
+}
+
+// Runs `work(progress)` in another thread, whichever threads it is spread over there, so that
+// observers of the progress run in this one, are called while it lasts, and can abort it. Progress
+// goes from `from` to `to`.
+template <typename Work>
+static void RunWithProgress(
+  vtkAlgorithm* self, bool quick, double from, double to, const Work& work)
+{
+  std::atomic<double> progress{ 0.0 };
+  std::atomic<bool> abort{ false };
+  const auto report = [&]() {
+    self->UpdateProgress(from + (to - from) * progress);
+    abort = abort || self->GetAbortExecute() != 0;
+  };
+  report();
+  auto result = std::async(quick ? std::launch::deferred : std::launch::async, [&]() {
+    work([&](double done) {
+      progress = done;
+      return !abort;
+    });
+  });
+  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
+  {
+    report();
+  }
+  result.get();
+}
+
+bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
+{
+  if (!(this->FinestTolerance > 0.0) || !std::isfinite(this->FinestTolerance))
+  {
+    vtkErrorMacro("FinestTolerance must be positive, but is " << this->FinestTolerance);
+    return false;
+  }
+  nurbs::WaveletOptions options;
+  options.Kind = this->Wavelet == HAAR ? nurbs::Wavelet::Haar
+    : this->Wavelet == LIFTED          ? nurbs::Wavelet::Lifted
+                                       : nurbs::Wavelet::Interpolating;
+  options.Finest.MaximumSamples = this->MaximumSamples;
+  options.Parallel = vtkNURBSParallelFor;
+  const auto scale = [&](const Pyramids& pyramids) {
+    return this->ToleranceMode == RELATIVE ? pyramids.Diagonal : 1.0;
+  };
+  if (this->Kept && this->Kept->Pool.IsUpToDate(input) &&
+    this->Kept->Options.Kind == options.Kind &&
+    this->Kept->Options.Finest.MaximumSamples == options.Finest.MaximumSamples &&
+    this->Kept->Options.Finest.Tolerance == scale(*this->Kept) * this->FinestTolerance)
+  {
+    return true;
+  }
+  const double start = Now();
+  this->Kept.reset();
+  auto work = std::make_unique<Pyramids>();
+  const std::string problem = work->Pool.Collect(input);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem);
+    return false;
+  }
+  const double diagonal =
+    nurbs::SampledDiagonal(work->Pool.Model, work->Pool.FaceErrors, vtkNURBSParallelFor);
+  work->Diagonal = diagonal > 0.0 ? diagonal : 1.0;
+  options.Finest.Tolerance = scale(*work) * this->FinestTolerance;
+  const bool quick = work->Pool.Model.Faces.size() <= QuickFaces;
+  RunWithProgress(this, quick, 0.0, 0.6, [&](std::function<bool(double)> progress) {
+    options.Progress = progress;
+    work->Model =
+      std::make_unique<nurbs::WaveletModel>(work->Pool.Model, work->Pool.FaceErrors, options);
+  });
+  work->Model->SetProgress(nullptr);
+  options.Progress = nullptr;
+  work->Options = options;
+  this->Kept = std::move(work);
+  this->AnalyseSeconds = Now() - start;
+  return true;
+}
+
+bool vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
+{
+  if (this->Mode == MAXIMUM_ERROR &&
+    (!(this->MaximumError > 0.0) || !std::isfinite(this->MaximumError)))
+  {
+    vtkErrorMacro("MaximumError must be positive, but is " << this->MaximumError);
+    return false;
+  }
+  meshes.Limit =
+    (this->ToleranceMode == RELATIVE ? this->Kept->Diagonal : 1.0) * this->MaximumError;
+  nurbs::WaveletModel& model = *this->Kept->Model;
+  const bool quick = this->Kept->Pool.Model.Faces.size() <= QuickFaces;
+  RunWithProgress(this, quick, 0.6, 0.95, [&](std::function<bool(double)> progress) {
+    model.SetProgress(progress);
+    meshes.Result = this->Mode == MAXIMUM_ERROR ? model.MaximumError(meshes.Limit)
+      : this->Mode == TRIANGLE_BUDGET           ? model.TriangleBudget(this->TriangleBudget)
+                                                : model.Level(this->Level);
+  });
+  model.SetProgress(nullptr);
+  return true;
+}
+
+void vtkNURBSWaveletLOD::FillOutputs(Meshes& meshes, vtkDataObject* input, vtkDataObject* output)
+{
+  const vtkNURBSModelPool& pool = this->Kept->Pool;
+  const std::vector<vtkPolyData*> leaves = pool.MakeLeaves(input, output);
+  for (std::size_t k = 0; k < pool.Leaves.size(); ++k)
+  {
+    vtkNURBSLevelOutput::Range range;
+    range.Model = this->Kept->Model.get();
+    range.Meshes = &meshes.Result;
+    range.First = pool.Leaves[k].FirstFace;
+    range.Last = pool.Leaves[k].LastFace;
+    vtkNURBSLevelOutput::FillMesh(range, pool.Leaves[k].Grid, leaves[k]);
+    this->NumberOfTriangles += leaves[k]->GetNumberOfPolys();
+    this->NumberOfPoints += leaves[k]->GetNumberOfPoints();
+  }
+}
+
+// Counts the faces by status and names those that were not done in one warning.
+void vtkNURBSWaveletLOD::Summarize(const Meshes& meshes)
+{
+  const vtkNURBSModelPool& pool = this->Kept->Pool;
+  this->NumberOfLevels = this->Kept->Model->Levels();
+  this->NumberOfSamples = this->Kept->Model->SampleCount();
+  this->NumberOfFaces = vtkIdType(meshes.Result.Faces.size());
+  std::ostringstream named;
+  int count = 0;
+  for (const vtkNURBSModelPool::Leaf& leaf : pool.Leaves)
+  {
+    for (std::size_t f = leaf.FirstFace; f < leaf.LastFace; ++f)
+    {
+      const nurbs::WaveletMesh& mesh = meshes.Result.Faces[f];
+      this->ErrorBound = std::max(this->ErrorBound, mesh.Error);
+      this->NumberOfRepairedFaces += mesh.Status == nurbs::WaveletStatus::Repaired;
+      this->NumberOfCappedFaces += mesh.Status == nurbs::WaveletStatus::Capped;
+      this->NumberOfFailedFaces += mesh.Status == nurbs::WaveletStatus::Failed;
+      if (mesh.Status < nurbs::WaveletStatus::Capped || ++count > MaxNamedFaces)
+      {
+        continue;
+      }
+      named << "\n  face " << vtkNURBSModel::GetFaceId(leaf.Grid, vtkIdType(f - leaf.FirstFace))
+            << (mesh.Status == nurbs::WaveletStatus::Failed ? " failed: " : " capped: ")
+            << mesh.Message;
+    }
+  }
+  if (count > 0)
+  {
+    vtkWarningMacro(<< this->NumberOfFailedFaces << " of " << this->NumberOfFaces
+                    << " faces have no triangles, " << this->NumberOfCappedFaces
+                    << " exceed the maximum error:" << named.str()
+                    << (count > MaxNamedFaces
+                           ? "\n  and " + std::to_string(count - MaxNamedFaces) + " more"
+                           : ""));
+  }
+}
+
+void vtkNURBSWaveletLOD::ClearResults()
+{
+  this->NumberOfLevels = 0;
+  this->NumberOfTriangles = this->NumberOfPoints = this->NumberOfSamples = 0;
+  this->NumberOfFaces = this->NumberOfRepairedFaces = 0;
+  this->NumberOfCappedFaces = this->NumberOfFailedFaces = 0;
+  this->ErrorBound = this->AnalyseSeconds = this->MeshSeconds = 0.0;
+}
+
+int vtkNURBSWaveletLOD::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const double start = Now();
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  vtkNURBSModelPool::CopyTree(input, output);
+  const vtkNURBSParallelScope parallel;
+  Meshes meshes;
+  try
+  {
+    if (!this->Analyse(input))
+    {
+      this->SetErrorCode(vtkErrorCode::UserError);
+      return 0;
+    }
+    if (this->Kept->Model->IsAborted())
+    {
+      this->Kept.reset();
+      return 1;
+    }
+    if (!this->Mesh(meshes))
+    {
+      this->SetErrorCode(vtkErrorCode::UserError);
+      return 0;
+    }
+  }
+  catch (const std::exception& problem)
+  {
+    vtkErrorMacro("Analysis failed: " << problem.what());
+    this->Kept.reset();
+    this->SetErrorCode(vtkErrorCode::UserError);
+    return 0;
+  }
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (meshes.Result.Aborted)
+  {
+    return 1;
+  }
+  if (!meshes.Result.WithinBudget)
+  {
+    vtkWarningMacro("The coarsest meshes have more than " << this->TriangleBudget << " triangles");
+  }
+  this->Summarize(meshes);
+  this->FillOutputs(meshes, input, output);
+  this->MeshSeconds = Now() - start - this->AnalyseSeconds;
+  this->UpdateProgress(1.0);
+  return 1;
+}
+
+void vtkNURBSWaveletLOD::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  static const char* const wavelets[] = { "interpolating", "lifted", "Haar" };
+  static const char* const modes[] = { "level", "maximum error", "triangle budget" };
+  os << indent << "Wavelet: " << wavelets[this->Wavelet] << "\n";
+  os << indent << "Mode: " << modes[this->Mode] << "\n";
+  os << indent << "Level: " << this->Level << "\n";
+  os << indent << "ToleranceMode: " << (this->ToleranceMode == ABSOLUTE ? "absolute" : "relative")
+     << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "TriangleBudget: " << this->TriangleBudget << "\n";
+  os << indent << "FinestTolerance: " << this->FinestTolerance << "\n";
+  os << indent << "MaximumSamples: " << this->MaximumSamples << "\n";
+  os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
+  os << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n";
+  os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";
+  os << indent << "ErrorBound: " << this->ErrorBound << "\n";
+  os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
+  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
+  os << indent << "NumberOfRepairedFaces: " << this->NumberOfRepairedFaces << "\n";
+  os << indent << "NumberOfCappedFaces: " << this->NumberOfCappedFaces << "\n";
+  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "AnalyseSeconds: " << this->AnalyseSeconds << "\n";
+  os << indent << "MeshSeconds: " << this->MeshSeconds << "\n";
+}
