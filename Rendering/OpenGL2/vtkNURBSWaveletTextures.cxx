@@ -168,11 +168,8 @@ void vtkNURBSWaveletTextures::Release(vtkOpenGLRenderWindow* window)
 {
   this->Data->Between->ReleaseGraphicsResources(window);
   this->Data->Buffer->ReleaseGraphicsResources(window);
-  if (window)
-  {
-    this->Data->NoAttributes->ReleaseGraphicsResources();
-  }
-  this->Data->Rectangles.Release(window != nullptr);
+  this->Data->NoAttributes->ReleaseGraphicsResources();
+  this->Data->Rectangles.Release();
 }
 
 const std::string& vtkNURBSWaveletTextures::GetError() const

@@ -197,7 +197,7 @@ TEST(Looks, IsophotesAndZebraStripes)
   EXPECT_GT(CompareGreys(scene, model, 0.02,
               [](const nurbs::RayHit& hit, const nurbs::Ray& ray)
               { return IsSteep(hit, ray) ? -1.0 : Stripe(hit.Normal.z(), 8); }),
-    1500);
+    1000);
   scene.Mapper->SetLook(vtkNURBSMapper::ZEBRA);
   EXPECT_GT(CompareGreys(scene, model, 0.02,
               [](const nurbs::RayHit& hit, const nurbs::Ray& ray)
@@ -206,7 +206,7 @@ TEST(Looks, IsophotesAndZebraStripes)
                   ray.Direction - 2.0 * ray.Direction.dot(hit.Normal) * hit.Normal;
                 return IsSteep(hit, ray) ? -1.0 : Stripe(mirrored.z(), 8);
               }),
-    1200);
+    1000);
 }
 
 TEST(Looks, IsoLinesAndEdgesAreAsWideAsAsked)
