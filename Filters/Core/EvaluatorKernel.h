@@ -379,21 +379,12 @@ struct EvaluatorKernel
     }
   }
 
-  /// What a column of a grid needs of u, and the row of inner sums that all of them share.
-  struct GridPlan
-  {
-    int Width = 0;             ///< Numbers a column in Bases: values, then derivatives.
-    int First = 0;             ///< The column of the net that is column 0 of what follows.
-    std::vector<int> Starts;   ///< First column, one a u.
-    std::vector<double> Bases; ///< One u after the other.
-    std::vector<int> Columns;  ///< The columns that some u needs.
-    std::vector<double> Sums;  ///< 8 numbers a column.
-  };
+  using GridPlan = SurfaceEvaluator::GridPlan;
 
-  static GridPlan PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
+  static void PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
   {
     const int p = e.View.Degree[0];
-    GridPlan plan;
+    GridPlan& plan = e.Plan;
     plan.Width = 2 * (p + 1);
     plan.Starts.resize(us.size());
     plan.Bases.resize(us.size() * plan.Width);
@@ -413,27 +404,27 @@ struct EvaluatorKernel
     plan.First = us.size() > 0 ? first : 0;
     const std::size_t columns = us.size() > 0 ? std::size_t(last - first) : 0;
     plan.Sums.resize(8 * columns);
-    std::vector<char> needed(columns, 0);
+    plan.Needed.assign(columns, 0);
     for (int& start : plan.Starts)
     {
       start -= plan.First;
-      std::fill_n(needed.begin() + start, p + 1, 1);
+      std::fill_n(plan.Needed.begin() + start, p + 1, 1);
     }
-    plan.Columns.reserve(columns);
+    plan.Columns.clear();
     for (std::size_t i = 0; i < columns; ++i)
     {
-      if (needed[i])
+      if (plan.Needed[i])
       {
         plan.Columns.push_back(int(i));
       }
     }
-    return plan;
   }
 
   /// The inner sums of one row of the grid.
   template <int Q>
-  static NURBS_INLINE void GridColumns(SurfaceEvaluator& e, double v, GridPlan& plan)
+  static NURBS_INLINE void GridColumns(SurfaceEvaluator& e, double v)
   {
+    GridPlan& plan = e.Plan;
     Seek<Q>(e, 1, v);
     const int q = Q >= 0 ? Q : e.View.Degree[1];
     const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
@@ -459,8 +450,8 @@ struct EvaluatorKernel
   }
 
   /// One row of the grid.
-  static NURBS_INLINE void GridRow(const SurfaceEvaluator& e, ArrayView<double> us, double v,
-    const GridPlan& plan, double* points, double* normals)
+  static NURBS_INLINE void GridRow(
+    const SurfaceEvaluator& e, ArrayView<double> us, double v, double* points, double* normals)
   {
     const bool derive = normals != nullptr;
     const int p = e.View.Degree[0];
@@ -475,7 +466,7 @@ struct EvaluatorKernel
       {
         uv[k] = Vec2(us[i + k], v);
       }
-      NURBS_FOR_DEGREE(p, GridSums, (plan, i, some, p, derive, h, hu, hv))
+      NURBS_FOR_DEGREE(p, GridSums, (e.Plan, i, some, p, derive, h, hu, hv))
       Finish(e, uv, some, h, hu, hv, points + 3 * i, derive ? normals + 3 * i : nullptr);
     }
   }
@@ -541,13 +532,13 @@ struct EvaluatorKernel
   static NURBS_INLINE void Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs,
     double* points, double* normals)
   {
-    GridPlan plan = PlanGrid(e, us);
+    PlanGrid(e, us);
     for (std::size_t j = 0; j < vs.size(); ++j)
     {
       const std::size_t at = 3 * j * us.size();
       double* rowNormals = normals ? normals + at : nullptr;
-      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, vs[j], plan))
-      GridRow(e, us, vs[j], plan, points + at, rowNormals);
+      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, vs[j]))
+      GridRow(e, us, vs[j], points + at, rowNormals);
     }
     e.RowStart = -1; // Row does not belong to the last v any more
   }
