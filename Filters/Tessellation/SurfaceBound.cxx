@@ -111,17 +111,23 @@ Interval3 operator-(const Interval3& x, const Interval3& y)
   return out;
 }
 
-// A derivative of the homogeneous Bezier form as intervals of its coefficients.
+// A derivative of the homogeneous Bezier form as intervals of its coefficients, up to a factor.
 struct Derivative
 {
-  Interval3 X;
-  Interval1 W;
-  Derivative() = default;
+  Vec4 Low = Vec4::Constant(1e300);
+  Vec4 High = Vec4::Constant(-1e300);
   void Extend(const Vec4& h)
   {
-    this->X.Extend(h.head<3>());
-    this->W.Extend(h[3]);
+    this->Low = this->Low.cwiseMin(h);
+    this->High = this->High.cwiseMax(h);
   }
+  void Scale(double factor)
+  {
+    this->Low *= factor;
+    this->High *= factor;
+  }
+  Interval3 X() const { return { this->Low.head<3>(), this->High.head<3>() }; }
+  Interval1 W() const { return { this->Low[3], this->High[3] }; }
 };
 
 // The patch less the bilinear surface L through its corners: H - w L and w in Bezier form, one degree
@@ -187,23 +193,23 @@ void BoundPatch(const std::vector<Vec4>& patch, int p, int q, double a, double b
       }
       if (i < p && rational)
       {
-        d[0].Extend((h[1] - h[0]) * f[0]);
+        d[0].Extend(h[1] - h[0]);
       }
       if (j < q && rational)
       {
-        d[1].Extend((h[s] - h[0]) * f[1]);
+        d[1].Extend(h[s] - h[0]);
       }
       if (i + 2 <= p)
       {
-        d[2].Extend((h[2] - 2.0 * h[1] + h[0]) * f[2]);
+        d[2].Extend(h[2] - 2.0 * h[1] + h[0]);
       }
       if (i < p && j < q)
       {
-        d[3].Extend((h[s + 1] - h[s] - h[1] + h[0]) * f[3]);
+        d[3].Extend(h[s + 1] - h[s] - h[1] + h[0]);
       }
       if (j + 2 <= q)
       {
-        d[4].Extend((h[2 * s] - 2.0 * h[s] + h[0]) * f[4]);
+        d[4].Extend(h[2 * s] - 2.0 * h[s] + h[0]);
       }
     }
   }
@@ -215,21 +221,25 @@ void BoundPatch(const std::vector<Vec4>& patch, int p, int q, double a, double b
   {
     d[4].Extend(Vec4::Zero());
   }
+  for (int k = 0; k < 5; ++k)
+  {
+    d[k].Scale(f[k]);
+  }
   if (!rational)
   {
     for (int k = 0; k < 3; ++k)
     {
-      out[k] = d[2 + k].X;
+      out[k] = d[2 + k].X();
     }
     return;
   }
   // S_u = (H_u - w_u S) / w, S_uv = (H_uv - w_u S_v - w_v S_u - w_uv S) / w.
-  const Interval3 su = reciprocal * (d[0].X - d[0].W * x);
-  const Interval3 sv = reciprocal * (d[1].X - d[1].W * x);
+  const Interval3 su = reciprocal * (d[0].X() - d[0].W() * x);
+  const Interval3 sv = reciprocal * (d[1].X() - d[1].W() * x);
   const auto twice = [](Interval1 w) { return Interval1{ 2.0 * w.Low, 2.0 * w.High }; };
-  out[0] = reciprocal * (d[2].X - twice(d[0].W) * su - d[2].W * x);
-  out[1] = reciprocal * (d[3].X - d[0].W * sv - d[1].W * su - d[3].W * x);
-  out[2] = reciprocal * (d[4].X - twice(d[1].W) * sv - d[4].W * x);
+  out[0] = reciprocal * (d[2].X() - twice(d[0].W()) * su - d[2].W() * x);
+  out[1] = reciprocal * (d[3].X() - d[0].W() * sv - d[1].W() * su - d[3].W() * x);
+  out[2] = reciprocal * (d[4].X() - twice(d[1].W()) * sv - d[4].W() * x);
   const Vec3 twist = (corner[3] - corner[2] - corner[1] + corner[0]) / (a * b);
   out[1].Low += twist;
   out[1].High += twist;
