@@ -471,6 +471,69 @@ struct EvaluatorKernel
     }
   }
 
+  /// What the second derivatives on a grid need in addition to PlanGrid.
+  static void PlanBends(SurfaceEvaluator& e, ArrayView<double> us)
+  {
+    const int p = e.View.Degree[0];
+    e.Plan.Bends.resize(us.size() * (p + 1));
+    e.Plan.BendSums.resize(e.Plan.Sums.size() / 2);
+    for (std::size_t i = 0; i < us.size(); ++i)
+    {
+      const int span = e.Plan.Starts[i] + e.Plan.First + p;
+      SpanSecondDerivatives(e.Shared->Dir[0], span, us[i], e.Plan.Bends.data() + i * (p + 1));
+    }
+  }
+
+  /// The inner sums of second v derivatives of one row of the grid.
+  static NURBS_INLINE void BendColumns(SurfaceEvaluator& e, double v)
+  {
+    const int q = e.View.Degree[1];
+    double bends[MaxDegree + 1];
+    SpanSecondDerivatives(e.Shared->Dir[1], e.Span[1], v, bends);
+    const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
+    const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride + 4 * e.Plan.First;
+    for (int i : e.Plan.Columns)
+    {
+      Quad sum = bends[0] * Quad::Load(row + 4 * i);
+      for (int j = 1; j <= q; ++j)
+      {
+        sum = sum + bends[j] * Quad::Load(row + 4 * i + j * stride);
+      }
+      sum.Store(e.Plan.BendSums.data() + 4 * i);
+    }
+  }
+
+  /// The homogeneous derivatives to order 2 at one place of a row of the grid, from its inner sums.
+  template <int P>
+  static NURBS_INLINE void BendRow(const GridPlan& plan, std::size_t i, int degree, Vec4 (&h)[3][3])
+  {
+    const int p = P >= 0 ? P : degree;
+    const double* N = plan.Bases.data() + i * plan.Width;
+    const double* dN = N + p + 1;
+    const double* ddN = plan.Bends.data() + i * (p + 1);
+    const double* sums = plan.Sums.data() + 8 * std::int64_t(plan.Starts[i]);
+    const double* bends = plan.BendSums.data() + 4 * std::int64_t(plan.Starts[i]);
+    Quad value;
+    Quad u;
+    Quad v;
+    SumRow<Quad, P>(sums, p, N, dN, true, value, u, v);
+    Quad uu = ddN[0] * Quad::Load(sums);
+    Quad uv = dN[0] * Quad::Load(sums + 4);
+    Quad vv = N[0] * Quad::Load(bends);
+    for (int k = 1; k <= p; ++k)
+    {
+      uu = uu + ddN[k] * Quad::Load(sums + 8 * k);
+      uv = uv + dN[k] * Quad::Load(sums + 8 * k + 4);
+      vv = vv + N[k] * Quad::Load(bends + 4 * k);
+    }
+    value.Store(h[0][0].data());
+    u.Store(h[1][0].data());
+    v.Store(h[0][1].data());
+    uu.Store(h[2][0].data());
+    uv.Store(h[1][1].data());
+    vv.Store(h[0][2].data());
+  }
+
   /// The homogeneous point and first derivatives; see ProjectDerivatives.
   static NURBS_INLINE void First(SurfaceEvaluator& e, const Vec2& uv, Vec4 (&h)[3][3])
   {
@@ -541,6 +604,25 @@ struct EvaluatorKernel
       GridRow(e, us, vs[j], points + at, rowNormals);
     }
     e.RowStart = -1; // Row does not belong to the last v any more
+  }
+
+  static NURBS_INLINE void DerivativesGrid(
+    SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* out)
+  {
+    PlanGrid(e, us);
+    PlanBends(e, us);
+    Vec4 h[3][3];
+    for (double v : vs)
+    {
+      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, v))
+      BendColumns(e, v);
+      for (std::size_t i = 0; i < us.size(); ++i)
+      {
+        NURBS_FOR_DEGREE(e.View.Degree[0], BendRow, (e.Plan, i, e.View.Degree[0], h))
+        *out++ = ProjectDerivatives(h, 2);
+      }
+    }
+    e.RowStart = -1;
   }
 };
 

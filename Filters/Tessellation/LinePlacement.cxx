@@ -14,6 +14,7 @@ constexpr std::size_t FewSpans = 16;    // Fewer are sampled too thinly to tell.
 constexpr std::size_t Interpolated = 9; // Fewer knots: samples are interpolated,
 constexpr int Finer = 4;                // to so many times as many.
 constexpr double FewCells = 4.0;        // No search for the best shares is worth while.
+constexpr std::int64_t RowsAtOnce = 8;  // Of samples.
 constexpr double LeastRoom = 0.1;       // Of the tolerance, for the second direction.
 
 int SamplesOfSpan(int degree, std::size_t spans)
@@ -158,18 +159,21 @@ void LinePlacement::Sample(const SurfaceBound& bound, double tolerance, const Pa
   this->Bends[1].assign(us.size() * vs.size(), 0.0);
   parallel(0, std::int64_t(vs.size()), [&](std::int64_t begin, std::int64_t end) {
     SurfaceEvaluator evaluator(bound.Evaluator());
-    for (std::int64_t j = begin; j < end; ++j)
+    std::vector<SurfaceDerivatives> at(us.size() * std::size_t(std::min(RowsAtOnce, end - begin)));
+    for (std::int64_t j = begin; j < end; j += RowsAtOnce)
     {
-      for (std::size_t i = 0; i < us.size(); ++i)
+      const std::size_t rows = std::size_t(std::min(RowsAtOnce, end - j));
+      evaluator.DerivativesGrid(us, ArrayView<double>(&vs[j], rows), at.data());
+      for (std::size_t k = 0; k < rows * us.size(); ++k)
       {
-        const SurfaceDerivatives d = evaluator.Derivatives(us[i], vs[j], 2);
+        const SurfaceDerivatives& d = at[k];
         const Vec3 n = d.Su.cross(d.Sv);
         const double length = n.norm();
         if (length > 1e-12 * d.Su.norm() * d.Sv.norm() && length > 0.0)
         {
           const double scale = 1.0 / (8.0 * tolerance * length);
-          this->Bends[0][i + j * us.size()] = scale * n.dot(d.Suu);
-          this->Bends[1][i + j * us.size()] = scale * n.dot(d.Svv);
+          this->Bends[0][k + j * us.size()] = scale * n.dot(d.Suu);
+          this->Bends[1][k + j * us.size()] = scale * n.dot(d.Svv);
         }
       }
     }
