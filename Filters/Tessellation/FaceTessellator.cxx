@@ -136,8 +136,12 @@ private:
     zone.TriangulateWhole(
       [&](FacetBound& bound, const CellZone::Triangle& t) {
         const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-        return !this->LooksBack(corner) && !this->ExceedsLimits(corner) &&
-          this->TriangleError(bound, corner) <= this->Job.Tolerance;
+        if (this->LooksBack(corner) || this->ExceedsLimits(corner))
+        {
+          return CellZone::NotGood;
+        }
+        const double error = this->TriangleError(bound, corner);
+        return error <= this->Job.Tolerance ? error : CellZone::NotGood;
       },
       FacetBound(*this->Job.Bound, this->Job.Options->Error), *this->Job.States,
       this->Job.Parallel);
