@@ -52,8 +52,8 @@ public:
 private:
   struct Tables;
 
-  /// What the columns of a grid need of u, and the row of inner sums that all of them share. Kept for
-  /// its memory only.
+  /// What the columns of a grid need of u, and the row of inner sums that all of them share. Kept
+  /// for its memory only.
   struct GridPlan
   {
     int Width = 0;                ///< Numbers a column in Bases: values, then derivatives.

@@ -98,8 +98,8 @@ SampleDistance CellError::Corners(const Facet& facet, const int* f) const
 
 // Adds the samples of k steps that those of `last` steps (0: none) do not have, in one half of the
 // cell or (`alone`) all of it, against its facet.
-void CellError::AddSamples(const Facet& facet, int diagonal, int half, bool alone, int last, int k,
-  SampleDistance& samples)
+void CellError::AddSamples(
+  const Facet& facet, int diagonal, int half, bool alone, int last, int k, SampleDistance& samples)
 {
   this->SampleGrid(k);
   const int step = DensestSamples / k;
@@ -114,7 +114,12 @@ void CellError::AddSamples(const Facet& facet, int diagonal, int half, bool alon
       {
         continue;
       }
-      const int on = (j == 0 ? Bottom : j == k ? Top : 0) | (i == 0 ? Left : i == k ? Right : 0) |
+      const int on = (j == 0      ? Bottom
+                         : j == k ? Top
+                                  : 0) |
+        (i == 0      ? Left
+            : i == k ? Right
+                     : 0) |
         (side == 0 && !alone ? Across : 0);
       int edge = -1;
       for (int e = 0; e < 3; ++e)

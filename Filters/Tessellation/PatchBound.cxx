@@ -74,10 +74,10 @@ struct Derivative
   }
 };
 
-// The patch less the bilinear surface L through its corners: H - w L and w in Bezier form, one degree
-// higher in both directions. S - L = (H - w L) / w has the second derivatives of S but for L_uv, and
-// is so small that the quotient rule's intervals are narrow. Coefficient (i, j) takes the same shares
-// of its neighbours for the elevated w and for the product.
+// The patch less the bilinear surface L through its corners: H - w L and w in Bezier form, one
+// degree higher in both directions. S - L = (H - w L) / w has the second derivatives of S but for
+// L_uv, and is so small that the quotient rule's intervals are narrow. Coefficient (i, j) takes the
+// same shares of its neighbours for the elevated w and for the product.
 void SubtractBilinear(
   const std::vector<Vec4>& c, int p, int q, const Vec3 (&corner)[4], std::vector<Vec4>& out)
 {

@@ -31,8 +31,8 @@ struct DerivativeIntervals
   Vec3 High[3];
 };
 
-/// Bounds every patch of a row, by the control points of its derivatives and, if it is rational, the
-/// quotient rule in intervals. Vectorised; gives the same bits on every machine.
+/// Bounds every patch of a row, by the control points of its derivatives and, if it is rational,
+/// the quotient rule in intervals. Vectorised; gives the same bits on every machine.
 void BoundPatches(const PatchRow& row, DerivativeIntervals* bounds);
 
 } // namespace nurbs
