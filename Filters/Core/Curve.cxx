@@ -102,8 +102,15 @@ CurveView<D> Curve<D>::View() const
 template <int D>
 Vec<D> Evaluate(const CurveView<D>& curve, double t)
 {
-  Vec<D + 1> h;
-  HomogeneousDerivatives<D>(curve, t, 0, &h);
+  const int p = curve.Degree;
+  double basis[MaxDegree + 1];
+  const int span = FindSpan(curve.Knots, p, t);
+  EvaluateBasis(curve.Knots, p, span, t, basis);
+  Vec<D + 1> h = Vec<D + 1>::Zero();
+  for (int i = 0; i <= p; ++i)
+  {
+    h += basis[i] * curve.Homogeneous(span - p + i);
+  }
   return h.template head<D>() / h[D];
 }
 

@@ -379,21 +379,12 @@ struct EvaluatorKernel
     }
   }
 
-  /// What a column of a grid needs of u, and the row of inner sums that all of them share.
-  struct GridPlan
-  {
-    int Width = 0;             ///< Numbers a column in Bases: values, then derivatives.
-    int First = 0;             ///< The column of the net that is column 0 of what follows.
-    std::vector<int> Starts;   ///< First column, one a u.
-    std::vector<double> Bases; ///< One u after the other.
-    std::vector<int> Columns;  ///< The columns that some u needs.
-    std::vector<double> Sums;  ///< 8 numbers a column.
-  };
+  using GridPlan = SurfaceEvaluator::GridPlan;
 
-  static GridPlan PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
+  static void PlanGrid(SurfaceEvaluator& e, ArrayView<double> us)
   {
     const int p = e.View.Degree[0];
-    GridPlan plan;
+    GridPlan& plan = e.Plan;
     plan.Width = 2 * (p + 1);
     plan.Starts.resize(us.size());
     plan.Bases.resize(us.size() * plan.Width);
@@ -413,27 +404,27 @@ struct EvaluatorKernel
     plan.First = us.size() > 0 ? first : 0;
     const std::size_t columns = us.size() > 0 ? std::size_t(last - first) : 0;
     plan.Sums.resize(8 * columns);
-    std::vector<char> needed(columns, 0);
+    plan.Needed.assign(columns, 0);
     for (int& start : plan.Starts)
     {
       start -= plan.First;
-      std::fill_n(needed.begin() + start, p + 1, 1);
+      std::fill_n(plan.Needed.begin() + start, p + 1, 1);
     }
-    plan.Columns.reserve(columns);
+    plan.Columns.clear();
     for (std::size_t i = 0; i < columns; ++i)
     {
-      if (needed[i])
+      if (plan.Needed[i])
       {
         plan.Columns.push_back(int(i));
       }
     }
-    return plan;
   }
 
   /// The inner sums of one row of the grid.
   template <int Q>
-  static NURBS_INLINE void GridColumns(SurfaceEvaluator& e, double v, GridPlan& plan)
+  static NURBS_INLINE void GridColumns(SurfaceEvaluator& e, double v)
   {
+    GridPlan& plan = e.Plan;
     Seek<Q>(e, 1, v);
     const int q = Q >= 0 ? Q : e.View.Degree[1];
     const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
@@ -459,8 +450,8 @@ struct EvaluatorKernel
   }
 
   /// One row of the grid.
-  static NURBS_INLINE void GridRow(const SurfaceEvaluator& e, ArrayView<double> us, double v,
-    const GridPlan& plan, double* points, double* normals)
+  static NURBS_INLINE void GridRow(
+    const SurfaceEvaluator& e, ArrayView<double> us, double v, double* points, double* normals)
   {
     const bool derive = normals != nullptr;
     const int p = e.View.Degree[0];
@@ -475,9 +466,72 @@ struct EvaluatorKernel
       {
         uv[k] = Vec2(us[i + k], v);
       }
-      NURBS_FOR_DEGREE(p, GridSums, (plan, i, some, p, derive, h, hu, hv))
+      NURBS_FOR_DEGREE(p, GridSums, (e.Plan, i, some, p, derive, h, hu, hv))
       Finish(e, uv, some, h, hu, hv, points + 3 * i, derive ? normals + 3 * i : nullptr);
     }
+  }
+
+  /// What the second derivatives on a grid need in addition to PlanGrid.
+  static void PlanBends(SurfaceEvaluator& e, ArrayView<double> us)
+  {
+    const int p = e.View.Degree[0];
+    e.Plan.Bends.resize(us.size() * (p + 1));
+    e.Plan.BendSums.resize(e.Plan.Sums.size() / 2);
+    for (std::size_t i = 0; i < us.size(); ++i)
+    {
+      const int span = e.Plan.Starts[i] + e.Plan.First + p;
+      SpanSecondDerivatives(e.Shared->Dir[0], span, us[i], e.Plan.Bends.data() + i * (p + 1));
+    }
+  }
+
+  /// The inner sums of second v derivatives of one row of the grid.
+  static NURBS_INLINE void BendColumns(SurfaceEvaluator& e, double v)
+  {
+    const int q = e.View.Degree[1];
+    double bends[MaxDegree + 1];
+    SpanSecondDerivatives(e.Shared->Dir[1], e.Span[1], v, bends);
+    const std::int64_t stride = 4 * std::int64_t(e.View.Count[0]);
+    const double* row = e.Shared->Net.data() + (e.Span[1] - q) * stride + 4 * e.Plan.First;
+    for (int i : e.Plan.Columns)
+    {
+      Quad sum = bends[0] * Quad::Load(row + 4 * i);
+      for (int j = 1; j <= q; ++j)
+      {
+        sum = sum + bends[j] * Quad::Load(row + 4 * i + j * stride);
+      }
+      sum.Store(e.Plan.BendSums.data() + 4 * i);
+    }
+  }
+
+  /// The homogeneous derivatives to order 2 at one place of a row of the grid, from its inner sums.
+  template <int P>
+  static NURBS_INLINE void BendRow(const GridPlan& plan, std::size_t i, int degree, Vec4 (&h)[3][3])
+  {
+    const int p = P >= 0 ? P : degree;
+    const double* N = plan.Bases.data() + i * plan.Width;
+    const double* dN = N + p + 1;
+    const double* ddN = plan.Bends.data() + i * (p + 1);
+    const double* sums = plan.Sums.data() + 8 * std::int64_t(plan.Starts[i]);
+    const double* bends = plan.BendSums.data() + 4 * std::int64_t(plan.Starts[i]);
+    Quad value;
+    Quad u;
+    Quad v;
+    SumRow<Quad, P>(sums, p, N, dN, true, value, u, v);
+    Quad uu = ddN[0] * Quad::Load(sums);
+    Quad uv = dN[0] * Quad::Load(sums + 4);
+    Quad vv = N[0] * Quad::Load(bends);
+    for (int k = 1; k <= p; ++k)
+    {
+      uu = uu + ddN[k] * Quad::Load(sums + 8 * k);
+      uv = uv + dN[k] * Quad::Load(sums + 8 * k + 4);
+      vv = vv + N[k] * Quad::Load(bends + 4 * k);
+    }
+    value.Store(h[0][0].data());
+    u.Store(h[1][0].data());
+    v.Store(h[0][1].data());
+    uu.Store(h[2][0].data());
+    uv.Store(h[1][1].data());
+    vv.Store(h[0][2].data());
   }
 
   /// The homogeneous point and first derivatives; see ProjectDerivatives.
@@ -541,15 +595,34 @@ struct EvaluatorKernel
   static NURBS_INLINE void Grid(SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs,
     double* points, double* normals)
   {
-    GridPlan plan = PlanGrid(e, us);
+    PlanGrid(e, us);
     for (std::size_t j = 0; j < vs.size(); ++j)
     {
       const std::size_t at = 3 * j * us.size();
       double* rowNormals = normals ? normals + at : nullptr;
-      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, vs[j], plan))
-      GridRow(e, us, vs[j], plan, points + at, rowNormals);
+      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, vs[j]))
+      GridRow(e, us, vs[j], points + at, rowNormals);
     }
     e.RowStart = -1; // Row does not belong to the last v any more
+  }
+
+  static NURBS_INLINE void DerivativesGrid(
+    SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* out)
+  {
+    PlanGrid(e, us);
+    PlanBends(e, us);
+    Vec4 h[3][3];
+    for (double v : vs)
+    {
+      NURBS_FOR_DEGREE(e.View.Degree[1], GridColumns, (e, v))
+      BendColumns(e, v);
+      for (std::size_t i = 0; i < us.size(); ++i)
+      {
+        NURBS_FOR_DEGREE(e.View.Degree[0], BendRow, (e.Plan, i, e.View.Degree[0], h))
+        *out++ = ProjectDerivatives(h, 2);
+      }
+    }
+    e.RowStart = -1;
   }
 };
 

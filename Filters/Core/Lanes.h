@@ -36,6 +36,9 @@ struct WideLanes
   friend NURBS_INLINE WideLanes operator*(WideLanes a, WideLanes b) { return { a.V * b.V }; }
   friend NURBS_INLINE WideLanes operator*(double s, WideLanes a) { return { s * a.V }; }
   static NURBS_INLINE WideLanes Reciprocal(WideLanes a) { return { 1.0 / a.V }; }
+  static NURBS_INLINE WideLanes All(double x) { return { x + Vector{} }; }
+  static NURBS_INLINE WideLanes Min(WideLanes a, WideLanes b) { return { b.V < a.V ? b.V : a.V }; }
+  static NURBS_INLINE WideLanes Max(WideLanes a, WideLanes b) { return { a.V < b.V ? b.V : a.V }; }
 
   /// All bits of lane k are set if a, b and c are positive there (NaN is not).
   static NURBS_INLINE void Positive(WideLanes a, WideLanes b, WideLanes c, std::int64_t (&lanes)[4])
@@ -96,6 +99,16 @@ struct NarrowLanes
   static NURBS_INLINE NarrowLanes Reciprocal(NarrowLanes a)
   {
     return { 1.0 / a.Low, 1.0 / a.High };
+  }
+
+  static NURBS_INLINE NarrowLanes All(double x) { return { x + Vector{}, x + Vector{} }; }
+  static NURBS_INLINE NarrowLanes Min(NarrowLanes a, NarrowLanes b)
+  {
+    return { b.Low < a.Low ? b.Low : a.Low, b.High < a.High ? b.High : a.High };
+  }
+  static NURBS_INLINE NarrowLanes Max(NarrowLanes a, NarrowLanes b)
+  {
+    return { a.Low < b.Low ? b.Low : a.Low, a.High < b.High ? b.High : a.High };
   }
 
   static NURBS_INLINE void Positive(

@@ -2,11 +2,13 @@
 #include "SurfaceBound.h"
 
 #include "Basis.h"
+#include "PatchBound.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace nurbs
@@ -71,176 +73,22 @@ void BlossomMatrix(KnotView knots, int p, int k, double a, double b, double* m)
   }
 }
 
-struct Interval3
-{
-  Vec3 Low = Vec3::Constant(1e300);
-  Vec3 High = Vec3::Constant(-1e300);
-  void Extend(const Vec3& x)
-  {
-    this->Low = this->Low.cwiseMin(x);
-    this->High = this->High.cwiseMax(x);
-  }
-};
-
-struct Interval1
-{
-  double Low = 1e300;
-  double High = -1e300;
-  void Extend(double x)
-  {
-    this->Low = std::min(this->Low, x);
-    this->High = std::max(this->High, x);
-  }
-};
-
-Interval3 operator*(const Interval1& s, const Interval3& x)
-{
-  Interval3 out;
-  out.Extend(s.Low * x.Low);
-  out.Extend(s.Low * x.High);
-  out.Extend(s.High * x.Low);
-  out.Extend(s.High * x.High);
-  return out;
-}
-
-Interval3 operator-(const Interval3& x, const Interval3& y)
-{
-  Interval3 out;
-  out.Low = x.Low - y.High;
-  out.High = x.High - y.Low;
-  return out;
-}
-
-// A derivative of the homogeneous Bezier form as intervals of its coefficients.
-struct Derivative
-{
-  Interval3 X;
-  Interval1 W;
-  Derivative() = default;
-  void Extend(const Vec4& h)
-  {
-    this->X.Extend(h.head<3>());
-    this->W.Extend(h[3]);
-  }
-};
-
-// The patch less the bilinear surface L through its corners: H - w L and w in Bezier form, one degree
-// higher in both directions. S - L = (H - w L) / w has the second derivatives of S but for L_uv, and
-// is so small that the quotient rule's intervals are narrow. Coefficient (i, j) takes the same shares
-// of its neighbours for the elevated w and for the product.
-void SubtractBilinear(
-  const std::vector<Vec4>& c, int p, int q, const Vec3 (&corner)[4], std::vector<Vec4>& out)
-{
-  out.assign(std::size_t(p + 2) * (q + 2), Vec4::Zero());
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      const Vec4& h = c[i + std::size_t(j) * (p + 1)];
-      for (int k = 0; k < 4; ++k)
-      {
-        const int a = k & 1;
-        const int b = k >> 1;
-        const double share =
-          (a ? i + 1.0 : p + 1.0 - i) / (p + 1) * ((b ? j + 1.0 : q + 1.0 - j) / (q + 1));
-        Vec4& target = out[i + a + std::size_t(j + b) * (p + 2)];
-        target.head<3>() += share * (h.head<3>() - h[3] * corner[k]);
-        target[3] += share * h[3];
-      }
-    }
-  }
-}
-
-// Intervals of the second derivatives of one Bezier patch over an a x b box; `scratch` is changed.
-void BoundPatch(const std::vector<Vec4>& patch, int p, int q, double a, double b, bool rational,
-  std::vector<Vec4>& scratch, Interval3 (&out)[3])
-{
-  const Vec4* c = patch.data();
-  Vec3 corner[4];
-  if (rational)
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      const Vec4& h = c[(k & 1 ? p : 0) + (k >> 1 ? q : 0) * (p + 1)];
-      corner[k] = h.head<3>() / h[3];
-    }
-    SubtractBilinear(patch, p, q, corner, scratch);
-    c = scratch.data();
-    ++p;
-    ++q;
-  }
-  const int s = p + 1;
-  const double f[5] = { p / a, q / b, p * (p - 1) / (a * a), p * q / (a * b),
-    q * (q - 1) / (b * b) };
-  Interval3 x;
-  Interval1 reciprocal; // Of the weight.
-  Derivative d[5];      // u, v, uu, uv, vv
-  for (int j = 0; j <= q; ++j)
-  {
-    for (int i = 0; i <= p; ++i)
-    {
-      const Vec4* h = c + i + j * s;
-      if (rational)
-      {
-        x.Extend(h[0].head<3>() / h[0][3]);
-        reciprocal.Extend(1.0 / h[0][3]);
-      }
-      if (i < p && rational)
-      {
-        d[0].Extend((h[1] - h[0]) * f[0]);
-      }
-      if (j < q && rational)
-      {
-        d[1].Extend((h[s] - h[0]) * f[1]);
-      }
-      if (i + 2 <= p)
-      {
-        d[2].Extend((h[2] - 2.0 * h[1] + h[0]) * f[2]);
-      }
-      if (i < p && j < q)
-      {
-        d[3].Extend((h[s + 1] - h[s] - h[1] + h[0]) * f[3]);
-      }
-      if (j + 2 <= q)
-      {
-        d[4].Extend((h[2 * s] - 2.0 * h[s] + h[0]) * f[4]);
-      }
-    }
-  }
-  if (p < 2)
-  {
-    d[2].Extend(Vec4::Zero());
-  }
-  if (q < 2)
-  {
-    d[4].Extend(Vec4::Zero());
-  }
-  if (!rational)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      out[k] = d[2 + k].X;
-    }
-    return;
-  }
-  // S_u = (H_u - w_u S) / w, S_uv = (H_uv - w_u S_v - w_v S_u - w_uv S) / w.
-  const Interval3 su = reciprocal * (d[0].X - d[0].W * x);
-  const Interval3 sv = reciprocal * (d[1].X - d[1].W * x);
-  const auto twice = [](Interval1 w) { return Interval1{ 2.0 * w.Low, 2.0 * w.High }; };
-  out[0] = reciprocal * (d[2].X - twice(d[0].W) * su - d[2].W * x);
-  out[1] = reciprocal * (d[3].X - d[0].W * sv - d[1].W * su - d[3].W * x);
-  out[2] = reciprocal * (d[4].X - twice(d[1].W) * sv - d[4].W * x);
-  const Vec3 twist = (corner[3] - corner[2] - corner[1] + corner[0]) / (a * b);
-  out[1].Low += twist;
-  out[1].High += twist;
-}
-
 constexpr double Unbounded = 1e150; // What does not fit a float; squares of it fit a double.
+
+// std::nextafter towards minus infinity, which is slow.
+float Below(float x)
+{
+  std::int32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits += x < 0.0f ? 1 : -1;
+  std::memcpy(&x, &bits, sizeof bits);
+  return x;
+}
 
 float Down(double x)
 {
   const float f = float(x);
-  return double(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+  return double(f) <= x ? f : f == 0.0f ? -std::numeric_limits<float>::denorm_min() : Below(f);
 }
 
 float Up(double x)
@@ -428,22 +276,28 @@ void SurfaceBound::MakeCells(const ParallelFor& parallel)
   level.Count[1] = nv;
   level.Cells.resize(std::size_t(nu) * nv);
   const bool rational = s.IsRational();
-  std::vector<int> span(nu);
+  std::vector<int> first(nu); // Columns of the net,
   std::vector<double> mu(std::size_t(nu) * (p + 1) * (p + 1));
   for (int i = 0; i < nu; ++i)
   {
     const double a = this->Breaks[0][i];
     const double b = this->Breaks[0][i + 1];
-    span[i] = FindSpan(s.Knots[0], p, 0.5 * (a + b));
-    BlossomMatrix(s.Knots[0], p, span[i], a, b, &mu[std::size_t(i) * (p + 1) * (p + 1)]);
+    const int span = FindSpan(s.Knots[0], p, 0.5 * (a + b));
+    first[i] = span - p;
+    BlossomMatrix(s.Knots[0], p, span, a, b, &mu[std::size_t(i) * (p + 1) * (p + 1)]);
   }
-  const int firstColumn = span.front() - p;
-  const int columns = span.back() - firstColumn + 1;
+  const int firstColumn = first.front();
+  const int columns = first.back() + p - firstColumn + 1;
+  for (int& column : first)
+  {
+    column -= firstColumn; // from here on those of `rows`.
+  }
   parallel(0, nv, [&](std::int64_t begin, std::int64_t end) {
     std::vector<Vec4> rows(std::size_t(columns) * (q + 1));
     std::vector<double> mv(std::size_t(q + 1) * (q + 1));
-    std::vector<Vec4> patch(std::size_t(p + 1) * (q + 1));
-    std::vector<Vec4> scratch;
+    std::vector<DerivativeIntervals> bounds(nu);
+    PatchRow row{ p, q, rational, nu, this->Breaks[0].data(), first.data(), mu.data(), 0.0, columns,
+      rows.data() };
     for (std::int64_t j = begin; j < end; ++j)
     {
       const double v0 = this->Breaks[1][j];
@@ -467,30 +321,15 @@ void SurfaceBound::MakeCells(const ParallelFor& parallel)
           }
         }
       }
+      row.Height = v1 - v0;
+      BoundPatches(row, bounds.data());
       for (int i = 0; i < nu; ++i)
       {
-        const double* m = &mu[std::size_t(i) * (p + 1) * (p + 1)];
-        for (int r = 0; r <= q; ++r)
-        {
-          const Vec4* row = &rows[std::size_t(r) * columns + span[i] - p - firstColumn];
-          for (int c = 0; c <= p; ++c)
-          {
-            Vec4 sum = Vec4::Zero();
-            for (int x = 0; x <= p; ++x)
-            {
-              sum += m[c * (p + 1) + x] * row[x];
-            }
-            patch[std::size_t(r) * (p + 1) + c] = sum;
-          }
-        }
-        Interval3 bounds[3];
-        BoundPatch(patch, p, q, this->Breaks[0][i + 1] - this->Breaks[0][i], v1 - v0, rational,
-          scratch, bounds);
         Cell& cell = level.Cells[i + std::size_t(j) * nu];
         for (int k = 0; k < 9; ++k)
         {
-          cell.Low[k] = Down(bounds[k / 3].Low[k % 3]);
-          cell.High[k] = Up(bounds[k / 3].High[k % 3]);
+          cell.Low[k] = Down(bounds[i].Low[k / 3][k % 3]);
+          cell.High[k] = Up(bounds[i].High[k / 3][k % 3]);
         }
       }
     }

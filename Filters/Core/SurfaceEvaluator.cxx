@@ -88,6 +88,13 @@ void WideGrid(
   Wide::Grid(e, us, vs, points, normals);
 }
 
+NURBS_MULTIVERSION
+void WideDerivatives(
+  SurfaceEvaluator& e, ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* out)
+{
+  Wide::DerivativesGrid(e, us, vs, out);
+}
+
 } // namespace
 
 SurfaceEvaluator::SurfaceEvaluator(const SurfaceView& surface)
@@ -147,6 +154,13 @@ void SurfaceEvaluator::Grid(
 {
   HasWideClones() ? WideGrid(*this, us, vs, points, normals)
                   : Narrow::Grid(*this, us, vs, points, normals);
+}
+
+void SurfaceEvaluator::DerivativesGrid(
+  ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* derivatives)
+{
+  HasWideClones() ? WideDerivatives(*this, us, vs, derivatives)
+                  : Narrow::DerivativesGrid(*this, us, vs, derivatives);
 }
 
 } // namespace nurbs

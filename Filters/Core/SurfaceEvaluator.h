@@ -44,10 +44,28 @@ public:
   /// The grid of us.size() x vs.size() points, u fastest: one basis evaluation per row and column.
   void Grid(ArrayView<double> us, ArrayView<double> vs, double* points, double* normals);
 
+  /// Points and derivatives to order 2 on such a grid, the same as those of Derivatives.
+  void DerivativesGrid(ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* derivatives);
+
   const SurfaceView& GetSurface() const { return this->View; }
 
 private:
   struct Tables;
+
+  /// What the columns of a grid need of u, and the row of inner sums that all of them share. Kept
+  /// for its memory only.
+  struct GridPlan
+  {
+    int Width = 0;                ///< Numbers a column in Bases: values, then derivatives.
+    int First = 0;                ///< The column of the net that is column 0 of what follows.
+    std::vector<int> Starts;      ///< First column, one a u.
+    std::vector<double> Bases;    ///< One u after the other.
+    std::vector<char> Needed;     ///< Which columns some u needs,
+    std::vector<int> Columns;     ///< and these.
+    std::vector<double> Sums;     ///< 8 numbers a column: value, v derivative.
+    std::vector<double> Bends;    ///< Second derivatives of the basis functions, as Bases,
+    std::vector<double> BendSums; ///< and 4 numbers a column: second v derivative.
+  };
 
   SurfaceView View;
   std::shared_ptr<const Tables> Shared;
@@ -58,6 +76,7 @@ private:
   double Basis[2][2][MaxDegree + 1];           ///< Direction; value or derivative; function.
   alignas(32) double Row[8 * (MaxDegree + 1)]; ///< Inner sums over v: value, v derivative a column.
   int RowStart = -1;                           ///< First column of Row; -1: none.
+  GridPlan Plan;
 
   template <typename Quad>
   friend struct EvaluatorKernel;

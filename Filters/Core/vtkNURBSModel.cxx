@@ -363,6 +363,7 @@ void vtkNURBSModel::RemoveStructure(vtkFieldData* field)
 
 void vtkNURBSModel::PassWithoutStructure(vtkFieldData* model, vtkFieldData* output)
 {
+  output->AllocateArrays(output->GetNumberOfArrays() + model->GetNumberOfArrays());
   for (int k = 0; k < model->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = model->GetAbstractArray(k);

@@ -9,6 +9,7 @@
 #include "TrimLoops.h"
 
 #include <BRep_Tool.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
@@ -367,6 +368,7 @@ std::vector<double> Converter::BreaksOfTrim(
   std::sort(breaks.begin(), breaks.end());
 
   std::vector<double> crossings;
+  const Geom2dAdaptor_Curve curve(use.Curve2d); // Faster than the curve itself.
   for (int dir = 0; dir < 2; ++dir)
   {
     const ParameterMap& surface = this->Support.Converter.Map(dir);
@@ -375,7 +377,7 @@ std::vector<double> Converter::BreaksOfTrim(
       continue;
     }
     auto coordinate = [&](double x) {
-      const gp_Pnt2d p = use.Curve2d->Value(this->ToCurve2d(use, map.Inverse(x)));
+      const gp_Pnt2d p = curve.Value(this->ToCurve2d(use, map.Inverse(x)));
       return (dir == 0 ? p.X() : p.Y()) + use.Shift[dir];
     };
     AppendCrossings(coordinate, breaks, surface.Offset(), surface.Span(), crossings);
@@ -406,8 +408,9 @@ Curve<2> Converter::ComposeTrim(const Use& use) const
     range = this->EdgeOf(use).Geometry.View().Domain();
   }
   const SurfaceConverter& surface = this->Support.Converter;
+  const Geom2dAdaptor_Curve curve(use.Curve2d);
   const auto value = [&](double x) {
-    const gp_Pnt2d p = use.Curve2d->Value(this->ToCurve2d(use, map.Inverse(x)));
+    const gp_Pnt2d p = curve.Value(this->ToCurve2d(use, map.Inverse(x)));
     return Vec2(
       surface.Map(0).Forward(p.X() + use.Shift[0]), surface.Map(1).Forward(p.Y() + use.Shift[1]));
   };

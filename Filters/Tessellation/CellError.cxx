@@ -16,6 +16,11 @@ constexpr double SlidingShare = 0.1; // What second derivatives along the surfac
 // The facets of each diagonal by corner index; the first lies beneath the diagonal from (0,0), or
 // left of that from (1,0).
 constexpr int Facets[2][2][3] = { { { 0, 1, 3 }, { 0, 3, 2 } }, { { 0, 1, 2 }, { 1, 3, 2 } } };
+
+// Where their edges run.
+constexpr int Bottom = 1, Top = 2, Left = 4, Right = 8, Across = 16;
+constexpr int Edges[2][2][3] = { { { Bottom, Right, Across }, { Across, Top, Left } },
+  { { Bottom, Across, Left }, { Right, Top, Across } } };
 } // namespace
 
 CellError::CellError(const SurfaceBound& bound, const TreeGoal& goal)
@@ -35,8 +40,11 @@ bool CellError::IsCollapsed(const int* f) const
   return *std::min_element(sides, sides + 3) <= 1e-18 * *std::max_element(sides, sides + 3);
 }
 
+// The corners of a cell, of which no samples are known yet.
 void CellError::MakeCorners(const ParameterBox& box)
 {
+  this->Box = box;
+  this->Density = 0;
   const Vec2 uv[4] = { Vec2(box.U0, box.V0), Vec2(box.U1, box.V0), Vec2(box.U0, box.V1),
     Vec2(box.U1, box.V1) };
   this->Evaluator.Batch(uv, 4, this->At[0].data(), this->Normal[0].data());
@@ -44,10 +52,10 @@ void CellError::MakeCorners(const ParameterBox& box)
     this->Bound.IsCrease(1, box.V0) || this->Bound.IsCrease(1, box.V1);
 }
 
-// Samples of the cell, k in each direction.
-void CellError::SampleGrid(const ParameterBox& box, int k)
+// Samples of the cell, k steps in each direction.
+void CellError::SampleGrid(int k)
 {
-  if (this->Density == k)
+  if (this->Density >= k)
   {
     return;
   }
@@ -56,17 +64,27 @@ void CellError::SampleGrid(const ParameterBox& box, int k)
   double vs[DensestSamples + 1];
   for (int i = 0; i <= k; ++i)
   {
-    us[i] = box.U0 + box.A() * i / k;
-    vs[i] = box.V0 + box.B() * i / k;
+    us[i] = this->Box.U0 + this->Box.A() * i / k;
+    vs[i] = this->Box.V0 + this->Box.B() * i / k;
   }
   const std::size_t n = std::size_t(k) + 1;
+  Vec3 points[(DensestSamples + 1) * (DensestSamples + 1)];
   this->Evaluator.Grid(
-    ArrayView<double>(us, n), ArrayView<double>(vs, n), this->Sample[0].data(), nullptr);
+    ArrayView<double>(us, n), ArrayView<double>(vs, n), points[0].data(), nullptr);
+  const int step = DensestSamples / k;
+  for (int j = 0; j <= k; ++j)
+  {
+    for (int i = 0; i <= k; ++i)
+    {
+      this->Sample[step * (i + j * (DensestSamples + 1))] = points[i + j * (k + 1)];
+    }
+  }
 }
 
 // What the corners of a facet tell.
-void CellError::AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const
+SampleDistance CellError::Corners(const Facet& facet, const int* f) const
 {
+  SampleDistance samples;
   for (int i = 0; i < 3; ++i)
   {
     samples.AddSlope(facet, this->Normal[f[i]]);
@@ -75,45 +93,47 @@ void CellError::AddCorners(const Facet& facet, const int* f, SampleDistance& sam
   {
     samples.SetCrease();
   }
+  return samples;
 }
 
-// The samples in one half of the cell, or (`alone`) all of them, against its facet.
-SampleDistance CellError::Samples(const Facet& facet, int diagonal, int half, bool alone) const
+// Adds the samples of k steps that those of `last` steps (0: none) do not have, in one half of the
+// cell or (`alone`) all of it, against its facet.
+void CellError::AddSamples(
+  const Facet& facet, int diagonal, int half, bool alone, int last, int k, SampleDistance& samples)
 {
-  const int k = this->Density;
-  SampleDistance samples;
-  this->AddCorners(facet, Facets[diagonal][half], samples);
+  this->SampleGrid(k);
+  const int step = DensestSamples / k;
+  const int known = last > 0 ? k / last : k + 1; // Every so many have been added.
   for (int j = 0; j <= k; ++j)
   {
     for (int i = 0; i <= k; ++i)
     {
       const int side = diagonal == 0 ? i - j : k - i - j;
-      if (!alone && (half == 0 ? side < 0 : side > 0))
+      if ((!alone && (half == 0 ? side < 0 : side > 0)) ||
+        (last > 0 && i % known == 0 && j % known == 0))
       {
         continue;
       }
-      const Vec3& x = this->Sample[i + std::size_t(j) * (k + 1)];
-      int on = -1;
-      for (int edge = 0; edge < 3; ++edge)
+      const int on = (j == 0      ? Bottom
+                         : j == k ? Top
+                                  : 0) |
+        (i == 0      ? Left
+            : i == k ? Right
+                     : 0) |
+        (side == 0 && !alone ? Across : 0);
+      int edge = -1;
+      for (int e = 0; e < 3; ++e)
       {
-        const int a = Facets[diagonal][half][edge];
-        const int b = Facets[diagonal][half][(edge + 1) % 3];
-        const bool here = (a & 1) == (b & 1) ? i == (a & 1) * k
-          : (a >> 1) == (b >> 1)             ? j == (a >> 1) * k
-                                             : side == 0 && !alone;
-        on = here ? edge : on;
+        edge = on & Edges[diagonal][half][e] ? e : edge;
       }
-      samples.Add(facet, x, on);
+      samples.Add(facet, this->Sample[step * (i + j * (DensestSamples + 1))], edge);
     }
   }
-  return samples;
 }
 
 double CellError::Sampled(const ParameterBox& box)
 {
   this->MakeCorners(box);
-  this->Density = 0;
-  this->SampleGrid(box, 2);
   double best = 1e300;
   for (int diagonal = 0; diagonal < 2; ++diagonal)
   {
@@ -125,7 +145,9 @@ double CellError::Sampled(const ParameterBox& box)
       {
         const Facet facet(this->At[f[0]], this->At[f[1]], this->At[f[2]]);
         const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
-        worst = std::max(worst, this->Samples(facet, diagonal, half, alone).Largest());
+        SampleDistance samples = this->Corners(facet, f);
+        this->AddSamples(facet, diagonal, half, alone, 0, 2, samples);
+        worst = std::max(worst, samples.Largest());
       }
     }
     best = std::min(best, worst);
@@ -135,7 +157,7 @@ double CellError::Sampled(const ParameterBox& box)
 
 // The error of the two facets of a diagonal; not examined further once it is known to be over the
 // tolerance, or over `best`.
-double CellError::Halves(int diagonal, const ParameterBox& box, double best)
+double CellError::Halves(int diagonal, double best)
 {
   const double tolerance = this->Goal.Tolerance;
   const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
@@ -154,22 +176,20 @@ double CellError::Halves(int diagonal, const ParameterBox& box, double best)
     }
     const bool alone = this->IsCollapsed(Facets[diagonal][1 - half]);
     double error = 1e300;
-    Remainder rest(this->Second, box.A(), box.B(), facet);
+    Remainder rest(this->Second, this->Box.A(), this->Box.B(), facet);
     if (guaranteed)
     {
       // The bilinear interpolant of the heights is a quarter of that of the fourth corner at most.
       const double twist = alone
         ? -1.0
         : 0.25 * std::abs(facet.Normal().dot(this->At[6 - f[0] - f[1] - f[2]] - this->At[f[0]]));
-      SampleDistance corners;
-      this->AddCorners(facet, f, corners);
-      const Remainder whole(this->Second, box.A(), box.B(), facet, twist);
-      error = CombineError(corners, whole, 1);
+      const Remainder whole(this->Second, this->Box.A(), this->Box.B(), facet, twist);
+      error = CombineError(this->Corners(facet, f), whole, 1);
       rest.Height = facet.HasPlane() ? whole.Across : 1e300;
     }
     if (error > tolerance)
     {
-      error = std::min(error, this->DenseError(facet, rest, diagonal, half, alone, box));
+      error = std::min(error, this->DenseError(facet, rest, diagonal, half, alone));
     }
     worst = std::max(worst, error);
     if (worst > tolerance || worst >= best)
@@ -196,38 +216,34 @@ bool CellError::LooksBack(const Facet& facet, const int* f) const
 }
 
 // The error by samples, as many as it takes to tell.
-double CellError::DenseError(const Facet& facet, const Remainder& rest, int diagonal, int half,
-  bool alone, const ParameterBox& box)
+double CellError::DenseError(
+  const Facet& facet, const Remainder& rest, int diagonal, int half, bool alone)
 {
   const double tolerance = this->Goal.Tolerance;
   const bool guaranteed = this->Goal.Error == ErrorMode::Guaranteed;
-  for (int k = 2;;)
+  SampleDistance samples = this->Corners(facet, Facets[diagonal][half]);
+  double error = 0.0;
+  for (int last = 0, k = 2; k > 0;)
   {
-    this->SampleGrid(box, k);
-    const SampleDistance samples = this->Samples(facet, diagonal, half, alone);
-    if (!guaranteed)
+    this->AddSamples(facet, diagonal, half, alone, last, k, samples);
+    error = guaranteed ? CombineError(samples, rest, k) : samples.Largest();
+    last = k;
+    if (error > tolerance)
     {
-      if (k == 4 || samples.Largest() > tolerance || !this->Bound.HasGridLineInside(box))
-      {
-        return samples.Largest();
-      }
-      k = 4;
-      continue;
+      k = guaranteed ? NextDensity(samples, rest, k, tolerance) : 0;
     }
-    const double error = CombineError(samples, rest, k);
-    k = error > tolerance ? NextDensity(samples, rest, k, tolerance) : 0;
-    if (k == 0)
+    else
     {
-      return error;
+      k = guaranteed || k == 4 || !this->Bound.HasGridLineInside(this->Box) ? 0 : 4;
     }
   }
+  return error;
 }
 
 double CellError::Measure(TreeLeaf& leaf)
 {
   const ParameterBox& box = leaf.Box;
   const double tolerance = this->Goal.Tolerance;
-  this->Density = 0;
   // The middle lies on both diagonals: if it is too far from both, the cell has failed.
   const Vec3 middle = this->Evaluator.Point(0.5 * (box.U0 + box.U1), 0.5 * (box.V0 + box.V1));
   double far[2];
@@ -244,10 +260,10 @@ double CellError::Measure(TreeLeaf& leaf)
   {
     return far[leaf.Diagonal];
   }
-  double error = this->Halves(leaf.Diagonal, box, 1e300);
+  double error = this->Halves(leaf.Diagonal, 1e300);
   if (error > tolerance)
   {
-    const double other = this->Halves(1 - leaf.Diagonal, box, error);
+    const double other = this->Halves(1 - leaf.Diagonal, error);
     if (other < error)
     {
       error = other;
@@ -275,13 +291,13 @@ bool CellError::IsBeyond(const Vec3& middle) const
   return true;
 }
 
-int CellError::CheaperAxis(const ParameterBox& box) const
+int CellError::CheaperAxis() const
 {
   const Vec3 diagonal = this->At[3] - this->At[0];
   const Vec3 other = this->At[2] - this->At[1];
   const Vec3 n = diagonal.cross(other).normalized();
-  const double a = box.A();
-  const double b = box.B();
+  const double a = this->Box.A();
+  const double b = this->Box.B();
   const auto cost = [&](int k) {
     return this->Second.Greatest(k, n) + SlidingShare * this->Second.Greatest(k);
   };
@@ -297,7 +313,7 @@ int CellError::CheaperAxis(const ParameterBox& box) const
 }
 
 // Sides and diagonals against the limits; `axis` receives the direction to split.
-bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
+bool CellError::ExceedsLimits(int& axis)
 {
   int longer = axis;
   const auto exceeds = [&longer](double limit, const auto& apart) {
@@ -316,6 +332,7 @@ bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
     if (!this->Bound.Creases(0).empty() || !this->Bound.Creases(1).empty())
     {
       // Normals of the cell's side of creases.
+      const ParameterBox box = this->Box;
       const double a = BesideCrease * box.A();
       const double b = BesideCrease * box.B();
       this->MakeCorners({ box.U0 + a, box.U1 - a, box.V0 + b, box.V1 - b });
@@ -328,12 +345,11 @@ bool CellError::ExceedsLimits(const ParameterBox& box, int& axis)
 
 int CellError::Examine(TreeLeaf& leaf)
 {
-  const ParameterBox& box = leaf.Box;
-  this->MakeCorners(box);
-  this->Second = this->Bound.Over(box);
+  this->MakeCorners(leaf.Box);
+  this->Second = this->Bound.Over(leaf.Box);
   leaf.Error = this->Measure(leaf);
-  int axis = leaf.Axis = this->CheaperAxis(box);
-  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(box, axis) ? -1 : axis;
+  int axis = leaf.Axis = this->CheaperAxis();
+  return leaf.Error <= this->Goal.Tolerance && !this->ExceedsLimits(axis) ? -1 : axis;
 }
 
 } // namespace nurbs

@@ -25,27 +25,30 @@ public:
 
 private:
   double Measure(TreeLeaf& leaf);
-  void AddCorners(const Facet& facet, const int* f, SampleDistance& samples) const;
+  SampleDistance Corners(const Facet& facet, const int* f) const;
   void MakeCorners(const ParameterBox& box);
-  SampleDistance Samples(const Facet& facet, int diagonal, int half, bool alone) const;
-  double Halves(int diagonal, const ParameterBox& box, double best);
+  void AddSamples(const Facet& facet, int diagonal, int half, bool alone, int last, int k,
+    SampleDistance& samples);
+  double Halves(int diagonal, double best);
   bool IsCollapsed(const int* facet) const;
-  void SampleGrid(const ParameterBox& box, int k);
-  int CheaperAxis(const ParameterBox& box) const;
-  double DenseError(const Facet& facet, const Remainder& rest, int diagonal, int half, bool alone,
-    const ParameterBox& box);
+  void SampleGrid(int k);
+  int CheaperAxis() const;
+  double DenseError(const Facet& facet, const Remainder& rest, int diagonal, int half, bool alone);
   bool LooksBack(const Facet& facet, const int* f) const;
   bool IsBeyond(const Vec3& middle) const;
-  bool ExceedsLimits(const ParameterBox& box, int& axis);
+  bool ExceedsLimits(int& axis);
 
   const SurfaceBound& Bound;
   const TreeGoal& Goal;
   SurfaceEvaluator Evaluator;
   SecondDerivatives Second;
-  Vec3 At[4];                                               ///< Corners (0,0), (1,0), (0,1), (1,1),
-  Vec3 Normal[4];                                           ///< and normals there.
-  Vec3 Sample[(DensestSamples + 1) * (DensestSamples + 1)]; ///< (Density + 1)^2, u fastest.
-  bool AtCrease = false;                                    ///< A side of the cell is a crease.
+  ParameterBox Box;      ///< The cell.
+  Vec3 At[4];            ///< Its corners (0,0), (1,0), (0,1), (1,1),
+  Vec3 Normal[4];        ///< and normals there.
+  bool AtCrease = false; ///< A side of the cell is a crease.
+  /// Samples of the cell, u fastest, of which every (DensestSamples / Density)-th is known in each
+  /// direction.
+  Vec3 Sample[(DensestSamples + 1) * (DensestSamples + 1)];
   int Density = 0;
 };
 

@@ -42,13 +42,12 @@ CellZone::CellZone(const SurfaceTree& tree, const TrimRegion& region, double mar
     }
   }
   this->Index.reserve(2 * this->Whole.size() + 64);
+  this->CornersOf.reserve(this->Whole.size());
   for (int k : this->Whole)
   {
     const TreeLeaf& leaf = leaves[k];
-    this->Vertex(leaf.U0, leaf.V0);
-    this->Vertex(leaf.U1, leaf.V0);
-    this->Vertex(leaf.U0, leaf.V1);
-    this->Vertex(leaf.U1, leaf.V1);
+    this->CornersOf.push_back({ this->Vertex(leaf.U0, leaf.V0), this->Vertex(leaf.U1, leaf.V0),
+      this->Vertex(leaf.U0, leaf.V1), this->Vertex(leaf.U1, leaf.V1) });
   }
   this->KeepCutCorners(region, cut);
 }
@@ -112,36 +111,36 @@ void CellZone::KeepCutCorners(const TrimRegion& region, const std::vector<std::p
   }
 }
 
-void CellZone::SortVertices()
+void CellZone::LinkVertices()
 {
   struct Item
   {
-    LineCode First, Second;
+    LineCode Line, Along;
     int Vertex;
     bool operator<(const Item& o) const
     {
-      return this->First != o.First ? this->First < o.First : this->Second < o.Second;
+      return this->Line != o.Line ? this->Line < o.Line : this->Along < o.Along;
     }
   };
-  const int n = int(this->Keys.size());
+  const std::size_t n = this->Keys.size();
   std::vector<Item> items(n);
-  const auto sort = [&](bool byU, std::vector<int>& by, std::vector<int>& at) {
-    for (int k = 0; k < n; ++k)
+  const auto link = [&](std::vector<int>& next, LineCode Key::*line, LineCode Key::*along) {
+    for (std::size_t k = 0; k < n; ++k)
     {
-      const Key& key = this->Keys[k];
-      items[k] = byU ? Item{ key.U, key.V, k } : Item{ key.V, key.U, k };
+      items[k] = { this->Keys[k].*line, this->Keys[k].*along, int(k) };
     }
     std::sort(items.begin(), items.end());
-    by.resize(n);
-    at.resize(n);
-    for (int k = 0; k < n; ++k)
+    next.assign(n, -1);
+    for (std::size_t k = 1; k < n; ++k)
     {
-      by[k] = items[k].Vertex;
-      at[items[k].Vertex] = k;
+      if (items[k - 1].Line == items[k].Line)
+      {
+        next[items[k - 1].Vertex] = items[k].Vertex;
+      }
     }
   };
-  sort(true, this->ByUV, this->AtUV);
-  sort(false, this->ByVU, this->AtVU);
+  link(this->NextU, &Key::V, &Key::U);
+  link(this->NextV, &Key::U, &Key::V);
 }
 
 struct CellZone::Part
@@ -162,7 +161,7 @@ std::uint64_t CellZone::Outline(const std::vector<int>& polygon) const
   return hash | 1;
 }
 
-void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const GoodTriangle& good,
+void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const ErrorOf& errorOf,
   FacetBound bound, std::vector<LeafState>& states, Part& out) const
 {
   std::vector<int> polygon;
@@ -172,7 +171,7 @@ void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const GoodTri
   {
     const int k = this->Whole[at];
     const TreeLeaf& leaf = this->Tree.Leaves()[k];
-    this->Polygon(leaf, polygon, lower, upper);
+    this->Polygon(this->CornersOf[at], polygon, lower, upper);
     const int m = int(polygon.size());
     for (int i = 0; i < m; ++i)
     {
@@ -198,8 +197,12 @@ void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const GoodTri
     {
       state = LeafState();
       state.Outline = outline;
-      state.Fan = !std::all_of(out.Triangles.begin() + first, out.Triangles.end(),
-        [&](const Triangle& t) { return good(bound, t); });
+      for (std::size_t t = first; t < out.Triangles.size() && state.Error < NotGood; ++t)
+      {
+        state.Error = std::max(state.Error, errorOf(bound, out.Triangles[t]));
+      }
+      state.Fan = state.Error == NotGood;
+      state.Error = state.Fan ? -1.0 : state.Error;
     }
     if (state.Fan)
     {
@@ -214,10 +217,10 @@ void CellZone::TriangulatePart(std::size_t begin, std::size_t end, const GoodTri
   }
 }
 
-void CellZone::TriangulateWhole(const GoodTriangle& good, const FacetBound& bound,
+void CellZone::TriangulateWhole(const ErrorOf& errorOf, const FacetBound& bound,
   std::vector<LeafState>& states, const ParallelFor& parallel)
 {
-  this->SortVertices();
+  this->LinkVertices();
   states.resize(this->Tree.Leaves().size());
   constexpr std::size_t Grain = 2048;
   std::vector<Part> parts((this->Whole.size() + Grain - 1) / Grain);
@@ -226,7 +229,7 @@ void CellZone::TriangulateWhole(const GoodTriangle& good, const FacetBound& boun
     {
       const std::size_t from = std::size_t(p) * Grain;
       this->TriangulatePart(
-        from, std::min(from + Grain, this->Whole.size()), good, bound, states, parts[p]);
+        from, std::min(from + Grain, this->Whole.size()), errorOf, bound, states, parts[p]);
     }
   });
   std::vector<std::pair<int, int>> directed;
@@ -290,49 +293,26 @@ void CellZone::FindOpenSides(const std::vector<std::pair<int, int>>& directed)
 
 // The cell's outline, counter-clockwise from (U0, V0), and its chains by ascending (u, v): `lower`
 // from (U0, V0) to (U1, V1) along the bottom and right sides, `upper` along the left and top ones.
-void CellZone::Polygon(const TreeLeaf& leaf, std::vector<int>& polygon, std::vector<int>& lower,
+void CellZone::Polygon(const Corners& corners, std::vector<int>& polygon, std::vector<int>& lower,
   std::vector<int>& upper) const
 {
-  const std::vector<Key>& keys = this->Keys;
-  const auto corner = [&](LineCode u, LineCode v) { return this->Index.find({ u, v })->second; };
-  const auto row = [&](int first, LineCode v, std::vector<int>& out) {
-    for (std::size_t k = this->AtVU[first]; k < this->ByVU.size(); ++k)
+  const auto chain = [&](const std::vector<int>& firstNext, int middle,
+                       const std::vector<int>& lastNext, std::vector<int>& out) {
+    out.clear();
+    for (int vertex = corners[0]; vertex != middle; vertex = firstNext[vertex])
     {
-      const int vertex = this->ByVU[k];
-      if (keys[vertex].V != v || keys[vertex].U > leaf.U1)
-      {
-        break;
-      }
       out.push_back(vertex);
     }
-  };
-  const auto column = [&](int first, LineCode u, std::vector<int>& out) {
-    for (std::size_t k = this->AtUV[first]; k < this->ByUV.size(); ++k)
+    for (int vertex = middle; vertex != corners[3]; vertex = lastNext[vertex])
     {
-      const int vertex = this->ByUV[k];
-      if (keys[vertex].U != u || keys[vertex].V > leaf.V1)
-      {
-        break;
-      }
       out.push_back(vertex);
     }
+    out.push_back(corners[3]);
   };
-  const int low = corner(leaf.U0, leaf.V0);
-  lower.clear();
-  upper.clear();
-  row(low, leaf.V0, lower);
-  const int right = lower.back();
-  lower.pop_back();
-  column(right, leaf.U1, lower);
-  column(low, leaf.U0, upper);
-  const int left = upper.back();
-  upper.pop_back();
-  row(left, leaf.V1, upper);
+  chain(this->NextU, corners[1], this->NextV, lower);
+  chain(this->NextV, corners[2], this->NextU, upper);
   polygon.assign(lower.begin(), lower.end());
-  for (std::size_t k = upper.size() - 1; k-- > 1;)
-  {
-    polygon.push_back(upper[k]);
-  }
+  polygon.insert(polygon.end(), upper.rbegin() + 1, upper.rend() - 1);
 }
 
 // Linear-time triangulation of a convex cell with vertices on its sides: the sweep for monotone

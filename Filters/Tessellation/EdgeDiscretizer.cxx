@@ -85,6 +85,7 @@ public:
     , Options(options)
     , Domain(EdgeDomain(model, edge, uses))
   {
+    this->Evaluators.reserve(uses.size());
     for (const EdgeUse& use : uses)
     {
       this->Evaluators.push_back(faces[use.Face].Bound->Evaluator());
@@ -206,10 +207,13 @@ private:
     for (const EdgeUse& use : this->Uses)
     {
       size = std::max(size, this->Faces[use.Face].Bound->Size());
-      for (int k = 0; k <= GapSamples && (known || this->Uses.size() > 1); ++k)
+    }
+    for (int k = 0; k <= GapSamples && (known || this->Uses.size() > 1); ++k)
+    {
+      const double t = this->GapSample(k);
+      const Vec3 x = known ? Evaluate(edge.Geometry, t) : this->Lifted(this->Uses[0], t);
+      for (const EdgeUse& use : this->Uses)
       {
-        const double t = this->GapSample(k);
-        const Vec3 x = known ? Evaluate(edge.Geometry, t) : this->Lifted(this->Uses[0], t);
         gap = std::max(gap, (this->Lifted(use, t) - x).norm());
       }
     }

@@ -136,8 +136,9 @@ private:
     zone.TriangulateWhole(
       [&](FacetBound& bound, const CellZone::Triangle& t) {
         const int corner[3] = { t.Corner[0] + first, t.Corner[1] + first, t.Corner[2] + first };
-        return !this->LooksBack(corner) && !this->ExceedsLimits(corner) &&
-          this->TriangleError(bound, corner) <= this->Job.Tolerance;
+        const bool bad = this->LooksBack(corner) || this->ExceedsLimits(corner);
+        const double error = bad ? CellZone::NotGood : this->TriangleError(bound, corner);
+        return error <= this->Job.Tolerance ? error : CellZone::NotGood;
       },
       FacetBound(*this->Job.Bound, this->Job.Options->Error), *this->Job.States,
       this->Job.Parallel);

@@ -21,6 +21,12 @@ double SegmentDistance(const Vec3& p, const Vec3& x, const Vec3& edge, double sq
   return (d - t * edge).squaredNorm();
 }
 
+// For a >= 0; b is zero more often than not.
+double Hypotenuse(double a, double b)
+{
+  return b == 0.0 ? a : std::sqrt(a * a + b * b);
+}
+
 ParameterBox BoxOf(const Vec2 (&uv)[3])
 {
   return { std::min({ uv[0][0], uv[1][0], uv[2][0] }), std::max({ uv[0][0], uv[1][0], uv[2][0] }),
@@ -91,9 +97,10 @@ void Facet::Measure(const Vec3& p, double& height, double& outside) const
   outside = std::sqrt(least);
 }
 
-double Facet::Across(int i, const Vec3& p) const
+double Facet::Inside(int i, const Vec3& p) const
 {
-  return this->Plane ? this->Outward[i].dot(p - this->X[i]) / std::sqrt(this->Square[i]) : 0.0;
+  const double across = this->Plane ? this->Outward[i].dot(p - this->X[i]) : 0.0;
+  return across < 0.0 ? -across / std::sqrt(this->Square[i]) : 0.0;
 }
 
 void SampleDistance::Add(const Facet& facet, const Vec3& p, int edge)
@@ -103,12 +110,12 @@ void SampleDistance::Add(const Facet& facet, const Vec3& p, int edge)
   facet.Measure(p, height, outside);
   this->Height = std::max(this->Height, height);
   this->Outside = std::max(this->Outside, outside);
-  this->Far = std::max(this->Far, std::sqrt(height * height + outside * outside));
+  this->Far = std::max(this->Far, Hypotenuse(height, outside));
   if (edge >= 0)
   {
-    const double inside = std::max(0.0, -facet.Across(edge, p));
+    const double inside = facet.Inside(edge, p);
     this->Inside = std::max(this->Inside, inside);
-    this->Edge = std::max(this->Edge, std::sqrt(height * height + inside * inside));
+    this->Edge = std::max(this->Edge, Hypotenuse(height, inside));
   }
 }
 

@@ -39,9 +39,9 @@ public:
   /// Height of p over the plane, and the distance of its foot from the triangle. Without a plane:
   /// 0 and the distance.
   void Measure(const Vec3& p, double& height, double& outside) const;
-  /// Distance of p's foot from the line of edge i (from corner i to i + 1), positive outwards; 0
-  /// without a plane.
-  double Across(int i, const Vec3& p) const;
+  /// Distance of p's foot from the line of edge i (from corner i to i + 1) if it is on the facet's
+  /// side of that, else 0; 0 without a plane.
+  double Inside(int i, const Vec3& p) const;
 
 private:
   Vec3 X[3];

@@ -14,6 +14,8 @@ constexpr std::size_t FewSpans = 16;    // Fewer are sampled too thinly to tell.
 constexpr std::size_t Interpolated = 9; // Fewer knots: samples are interpolated,
 constexpr int Finer = 4;                // to so many times as many.
 constexpr double FewCells = 4.0;        // No search for the best shares is worth while.
+constexpr std::int64_t RowsAtOnce = 8;  // Of samples.
+constexpr double NegligibleBow = 1e-6;  // In tolerances, across the whole surface.
 constexpr double LeastRoom = 0.1;       // Of the tolerance, for the second direction.
 
 int SamplesOfSpan(int degree, std::size_t spans)
@@ -91,7 +93,7 @@ LinePlacement::LinePlacement(const SurfaceBound& bound, const ParameterBox& doma
   }
   // Which direction comes first, and what it may use of the tolerance: whatever makes fewest cells.
   double least = this->Share(0, 0.5);
-  if (least <= FewCells || !this->FollowsDemand(0) || !this->FollowsDemand(1))
+  if (least <= FewCells || !this->AddUp() || !this->FollowsDemand(0) || !this->FollowsDemand(1))
   {
     return;
   }
@@ -156,20 +158,33 @@ void LinePlacement::Sample(const SurfaceBound& bound, double tolerance, const Pa
   const std::vector<double>& vs = this->Direction[1].Middle;
   this->Bends[0].assign(us.size() * vs.size(), 0.0);
   this->Bends[1].assign(us.size() * vs.size(), 0.0);
+  double negligible[2]; // Round-off of a direction that is straight.
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const std::vector<double>& knots = this->Direction[dir].Knots;
+    negligible[dir] = NegligibleBow / std::pow(knots.back() - knots.front(), 2);
+  }
   parallel(0, std::int64_t(vs.size()), [&](std::int64_t begin, std::int64_t end) {
     SurfaceEvaluator evaluator(bound.Evaluator());
-    for (std::int64_t j = begin; j < end; ++j)
+    std::vector<SurfaceDerivatives> at(us.size() * std::size_t(std::min(RowsAtOnce, end - begin)));
+    for (std::int64_t j = begin; j < end; j += RowsAtOnce)
     {
-      for (std::size_t i = 0; i < us.size(); ++i)
+      const std::size_t rows = std::size_t(std::min(RowsAtOnce, end - j));
+      evaluator.DerivativesGrid(us, ArrayView<double>(&vs[j], rows), at.data());
+      for (std::size_t k = 0; k < rows * us.size(); ++k)
       {
-        const SurfaceDerivatives d = evaluator.Derivatives(us[i], vs[j], 2);
+        const SurfaceDerivatives& d = at[k];
         const Vec3 n = d.Su.cross(d.Sv);
         const double length = n.norm();
         if (length > 1e-12 * d.Su.norm() * d.Sv.norm() && length > 0.0)
         {
           const double scale = 1.0 / (8.0 * tolerance * length);
-          this->Bends[0][i + j * us.size()] = scale * n.dot(d.Suu);
-          this->Bends[1][i + j * us.size()] = scale * n.dot(d.Svv);
+          const double bends[2] = { scale * n.dot(d.Suu), scale * n.dot(d.Svv) };
+          for (int dir = 0; dir < 2; ++dir)
+          {
+            this->Bends[dir][k + j * us.size()] =
+              std::abs(bends[dir]) > negligible[dir] ? bends[dir] : 0.0;
+          }
         }
       }
     }
@@ -243,6 +258,19 @@ bool LinePlacement::IsEven(int dir) const
     mean += sum / double(others) * s.Length(s.CellOf(i));
   }
   return mean >= EvenShare * most;
+}
+
+// True if the directions bend to the same side anywhere, so that one must leave room to the other.
+bool LinePlacement::AddUp() const
+{
+  for (std::size_t k = 0; k < this->Bends[0].size(); ++k)
+  {
+    if (this->Bends[0][k] * this->Bends[1][k] > 0.0)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 // Segments between all stops; `spacing` receives their length in each cell.

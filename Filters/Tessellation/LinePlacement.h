@@ -56,6 +56,7 @@ private:
   void Refine(int dir);
   double Bend(int dir, std::size_t own, std::size_t other) const;
   bool IsEven(int dir) const;
+  bool AddUp() const;
   double Share(int first, double share);
   double CountSegments(const Samples& s, std::vector<double>* spacing) const;
 

@@ -231,15 +231,16 @@ private:
 
   // Parameter distances that are a fiftieth of the tolerance on the surface: trim lines beside a
   // crease or a knot line leave strips that narrow, which no triangle should have to fit.
-  static Vec2 SnapDistance(const SurfaceView& surface, double tolerance)
+  static Vec2 SnapDistance(const SurfaceBound& bound, double tolerance)
   {
-    const Interval u = surface.Domain(0);
-    const Interval v = surface.Domain(1);
+    const Interval u = bound.View().Domain(0);
+    const Interval v = bound.View().Domain(1);
+    SurfaceEvaluator evaluator(bound.Evaluator());
     double su = 0.0;
     double sv = 0.0;
     for (int k = 0; k < 9; ++k)
     {
-      const SurfaceDerivatives d = EvaluateDerivatives(surface,
+      const SurfaceDerivatives d = evaluator.Derivatives(
         u.Min + u.Length() * (0.1 + 0.4 * (k % 3)), v.Min + v.Length() * (0.1 + 0.4 * (k / 3)), 1);
       su = std::max(su, d.Su.norm());
       sv = std::max(sv, d.Sv.norm());
@@ -254,9 +255,9 @@ private:
   {
     const Face& face = this->Data.Faces[f];
     const double tolerance = this->ToleranceOf(f);
-    this->Snaps[f] = this->SnapDistance(face.Geometry, tolerance);
     const ParameterBox used = this->UsedDomain(f);
     this->Bounds[f].reset(new SurfaceBound(face.Geometry, used));
+    this->Snaps[f] = this->SnapDistance(*this->Bounds[f], tolerance);
     FaceContext& context = this->Contexts[f];
     context.Bound = this->Bounds[f].get();
     context.Tolerance = tolerance;

@@ -289,7 +289,6 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
 
 void vtkNURBSMeshOutput::FillMesh(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh)
 {
-  mesh->Initialize();
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), mesh->GetFieldData());
   const Offsets offsets(range);
   const vtkIdType points = offsets.Points.back();
@@ -323,7 +322,6 @@ void vtkNURBSMeshOutput::FillMesh(const Range& range, vtkUnstructuredGrid* grid,
 void vtkNURBSMeshOutput::FillLines(
   const Range& range, vtkUnstructuredGrid* grid, std::int64_t firstEdge, vtkPolyData* lines)
 {
-  lines->Initialize();
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), lines->GetFieldData());
   const vtkIdType count = vtkIdType(range.LastLine - range.FirstLine);
   auto edges = NewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);

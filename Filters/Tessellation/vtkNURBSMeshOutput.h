@@ -25,10 +25,12 @@ struct Range
   bool MergePoints = false;
 };
 
-/// Fills `mesh` (port 0 of vtkNURBSTessellator); the meshes of the range are emptied on the way.
+/// Fills `mesh` (port 0 of vtkNURBSTessellator), which is empty; the meshes of the range are emptied
+/// on the way.
 void FillMesh(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh);
 
-/// Fills `lines` (port 1). Edges are counted from `firstEdge`, which becomes EdgeId 0.
+/// Fills `lines` (port 1), which are empty. Edges are counted from `firstEdge`, which becomes EdgeId
+/// 0.
 void FillLines(
   const Range& range, vtkUnstructuredGrid* grid, std::int64_t firstEdge, vtkPolyData* lines);
 

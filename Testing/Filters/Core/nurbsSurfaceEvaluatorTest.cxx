@@ -142,6 +142,39 @@ TEST(SurfaceEvaluator, GridIsItsPoints)
   }
 }
 
+TEST(SurfaceEvaluator, DerivativesOnAGridAreThoseOfItsPoints)
+{
+  reference::Random random(67);
+  for (const Surface& s : Surfaces())
+  {
+    SCOPED_TRACE(Name(s));
+    std::vector<double> us, vs;
+    for (int i = 0; i < 5; ++i)
+    {
+      us.push_back(random.Parameter(s.Knots[0], s.Degree[0]));
+      vs.push_back(random.Parameter(s.Knots[1], s.Degree[1]));
+    }
+    SurfaceEvaluator evaluator(s.View());
+    SurfaceEvaluator other(s.View());
+    std::vector<SurfaceDerivatives> grid(25), narrow(25);
+    evaluator.DerivativesGrid(us, vs, grid.data());
+    EvaluatorKernel<NarrowLanes>::DerivativesGrid(other, us, vs, narrow.data());
+    for (int k = 24; k >= 0; --k)
+    {
+      const SurfaceDerivatives d = evaluator.Derivatives(us[k % 5], vs[k / 5], 2);
+      for (const SurfaceDerivatives& at : { grid[k], narrow[k] })
+      {
+        EXPECT_EQ(at.S, d.S);
+        EXPECT_EQ(at.Su, d.Su);
+        EXPECT_EQ(at.Sv, d.Sv);
+        EXPECT_EQ(at.Suu, d.Suu);
+        EXPECT_EQ(at.Suv, d.Suv);
+        EXPECT_EQ(at.Svv, d.Svv);
+      }
+    }
+  }
+}
+
 TEST(SurfaceEvaluator, NarrowAndWideRegistersGiveTheSameBits)
 {
   // The library takes what the machine has; here is the loop for the narrow ones.
