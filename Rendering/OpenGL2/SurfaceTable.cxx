@@ -57,7 +57,8 @@ bool IsSmoothSeam(const SurfaceView& view, int dir, double size)
 }
 
 // Parameters that cut the spans of a rational surface, whose bounds are tight over short pieces only.
-std::vector<double> LinesWithin(const SurfaceView& view, const std::vector<Interval>& spans, int dir)
+std::vector<double> LinesWithin(
+  const SurfaceView& view, const std::vector<Interval>& spans, int dir)
 {
   constexpr int Pieces = 4;
   std::vector<double> lines;
@@ -241,8 +242,7 @@ void SurfaceTable::FillSides(TableSurface& surface, const SurfaceBound& bound)
     const bool closed = IsSmoothSeam(view, dir, 2.0 * surface.Radius);
     const Interval domain = view.Domain(dir);
     const std::vector<Interval>& spans = surface.Spans[dir];
-    const auto isOpen = [&](double share)
-    {
+    const auto isOpen = [&](double share) {
       return share <= 0.0 || share >= 1.0
         ? !closed
         : bound.IsCrease(dir, domain.Min + share * domain.Length());

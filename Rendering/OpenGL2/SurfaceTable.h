@@ -30,16 +30,16 @@ struct PatchBound
 /// One surface in a SurfaceTable.
 struct TableSurface
 {
-  SurfaceView View;                   ///< The surface in double precision; Count 0: not drawable.
-  int FirstPoint = 0;                 ///< Of its Count[0] * Count[1] texels in Points, u fastest.
-  int FirstBlock[2] = { 0, 0 };       ///< Of its spans' blocks in Knots, per direction.
-  Vec3 Origin = Vec3::Zero();         ///< What Points are relative to.
-  double Radius = -1.0;               ///< Half the diagonal of the control points' box.
-  Box3 Bounds;                        ///< Of the used patches, in model coordinates.
-  std::vector<Interval> Spans[2];     ///< Non-empty knot spans, as shares of the domain.
-  bool SidesChanged = false;          ///< By the last Move: blocks of Knots are new.
+  SurfaceView View;               ///< The surface in double precision; Count 0: not drawable.
+  int FirstPoint = 0;             ///< Of its Count[0] * Count[1] texels in Points, u fastest.
+  int FirstBlock[2] = { 0, 0 };   ///< Of its spans' blocks in Knots, per direction.
+  Vec3 Origin = Vec3::Zero();     ///< What Points are relative to.
+  double Radius = -1.0;           ///< Half the diagonal of the control points' box.
+  Box3 Bounds;                    ///< Of the used patches, in model coordinates.
+  std::vector<Interval> Spans[2]; ///< Non-empty knot spans, as shares of the domain.
+  bool SidesChanged = false;      ///< By the last Move: blocks of Knots are new.
   int Used[2][2] = { { 0, 0 }, { 0, 0 } }; ///< First and end of the spans that trims leave over.
-  std::vector<PatchBound> Patches;    ///< Spans[0].size() x Spans[1].size(), u fastest.
+  std::vector<PatchBound> Patches;         ///< Spans[0].size() x Spans[1].size(), u fastest.
 
   bool IsDrawable() const { return this->View.Count[0] > 0; }
   int BlockSize(int dir) const { return 4 + 2 * this->View.Degree[dir]; }

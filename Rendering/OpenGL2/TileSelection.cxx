@@ -116,8 +116,8 @@ private:
       box.extend(Evaluate(this->Surface.View, t[0], t[1]));
     }
     const auto& s = this->Surface.Patch(i, j).Second;
-    const double bow = (part.A * part.A * s[0] + 2.0 * part.A * part.B * s[1] +
-                         part.B * part.B * s[2]) / 8.0;
+    const double bow =
+      (part.A * part.A * s[0] + 2.0 * part.A * part.B * s[1] + part.B * part.B * s[2]) / 8.0;
     box.min().array() -= bow;
     box.max().array() += bow;
     return box;
@@ -142,10 +142,9 @@ private:
     double result = std::numeric_limits<double>::infinity();
     for (int child = 0; child < 4; ++child)
     {
-      const Part half = { part.U + 0.5 * (child & 1) * part.A,
-        part.V + 0.5 * (child >> 1) * part.B, 0.5 * part.A, 0.5 * part.B };
-      result =
-        std::min(result, this->SeenDepth(i, j, half, this->PartBox(i, j, half), depth - 1));
+      const Part half = { part.U + 0.5 * (child & 1) * part.A, part.V + 0.5 * (child >> 1) * part.B,
+        0.5 * part.A, 0.5 * part.B };
+      result = std::min(result, this->SeenDepth(i, j, half, this->PartBox(i, j, half), depth - 1));
     }
     return result;
   }
@@ -197,7 +196,8 @@ private:
     const Box3 box = this->PatchBox(i, j);
     if (log[0] >= 0 && log[1] >= 0 && !IsOutside(this->View.ModelToClip, box))
     {
-      const int tiles[2] = { std::max(log[0] - Tile::MaxLog, 0), std::max(log[1] - Tile::MaxLog, 0) };
+      const int tiles[2] = { std::max(log[0] - Tile::MaxLog, 0),
+        std::max(log[1] - Tile::MaxLog, 0) };
       this->Emit(i, j, log, 0, 0, tiles);
     }
   }
@@ -205,7 +205,8 @@ private:
   // The tiles of a block of 2^left[0] x 2^left[1] tiles at (x, y), by halves.
   void Emit(int i, int j, const int (&log)[2], int x, int y, const int (&left)[2])
   {
-    if (left[0] < std::max(log[0] - Tile::MaxLog, 0) || left[1] < std::max(log[1] - Tile::MaxLog, 0))
+    if (left[0] < std::max(log[0] - Tile::MaxLog, 0) ||
+      left[1] < std::max(log[1] - Tile::MaxLog, 0))
     {
       const double tile[2] = { std::ldexp(1.0, std::min(Tile::MaxLog - log[0], 0)),
         std::ldexp(1.0, std::min(Tile::MaxLog - log[1], 0)) };
@@ -252,7 +253,8 @@ private:
 bool Tile::operator==(const Tile& o) const
 {
   return this->Surface == o.Surface && std::equal(this->Span, this->Span + 2, o.Span) &&
-    std::equal(this->Log, this->Log + 2, o.Log) && std::equal(this->First, this->First + 2, o.First);
+    std::equal(this->Log, this->Log + 2, o.Log) &&
+    std::equal(this->First, this->First + 2, o.First);
 }
 
 double PixelsPerUnit(const TileView& view, double w)

@@ -19,8 +19,9 @@ namespace nurbs
 /// The camera as a kernel sees it.
 struct TileView
 {
-  Eigen::Matrix4d ModelToClip = Eigen::Matrix4d::Identity(); ///< Clip coordinates, -w <= x, y, z <= w.
-  int Size[2] = { 1, 1 };  ///< Of the viewport, in pixels.
+  Eigen::Matrix4d ModelToClip =
+    Eigen::Matrix4d::Identity(); ///< Clip coordinates, -w <= x, y, z <= w.
+  int Size[2] = { 1, 1 };        ///< Of the viewport, in pixels.
   double Near = 1.0;       ///< Least w of what is seen: the near plane's distance; parallel: 1.
   double PixelError = 0.5; ///< Bound of the distance between triangles and surface on screen.
 };
@@ -28,8 +29,8 @@ struct TileView
 /// A rectangle of cells in one patch.
 struct Tile
 {
-  static constexpr int MaxLog = 4;       ///< A tile has at most 2^MaxLog cells a direction.
-  static constexpr int MaxSpanLog = 12;  ///< A span has at most 2^MaxSpanLog.
+  static constexpr int MaxLog = 4;      ///< A tile has at most 2^MaxLog cells a direction.
+  static constexpr int MaxSpanLog = 12; ///< A span has at most 2^MaxSpanLog.
 
   int Surface = 0;
   int Span[2] = { 0, 0 };  ///< Index of its knot spans.
@@ -48,13 +49,14 @@ struct Tile
 /// What a view needs.
 struct TileSelection
 {
-  std::vector<Tile> Tiles;       ///< Sorted by surface.
-  double PixelError = 0.0;       ///< Bound that the tiles keep, over the asked one if spans are capped.
-  std::int64_t Cells = 0;        ///< Of all tiles.
+  std::vector<Tile> Tiles; ///< Sorted by surface.
+  double PixelError = 0.0; ///< Bound that the tiles keep, over the asked one if spans are capped.
+  std::int64_t Cells = 0;  ///< Of all tiles.
 };
 
 /// The tiles of one surface, appended to `selection`.
-void SelectTiles(const SurfaceTable& table, int surface, const TileView& view, TileSelection& selection);
+void SelectTiles(
+  const SurfaceTable& table, int surface, const TileView& view, TileSelection& selection);
 
 /// Pixels of a unit of length at least depth w (clip coordinate) under a view, at most.
 double PixelsPerUnit(const TileView& view, double w);

@@ -71,8 +71,8 @@ bool vtkNURBSBufferTexture::Upload(const void* data, std::size_t bytes)
 void vtkNURBSBufferTexture::Replace(std::size_t offset, const void* data, std::size_t bytes)
 {
   glBindBuffer(GL_TEXTURE_BUFFER, this->Buffer);
-  glBufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(offset),
-    static_cast<GLsizeiptr>(bytes), data);
+  glBufferSubData(
+    GL_TEXTURE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
   glBindBuffer(GL_TEXTURE_BUFFER, 0);
   this->BytesSent += bytes;
 }

@@ -19,10 +19,10 @@ class vtkNURBSBufferTexture
 public:
   enum Format
   {
-    FLOAT,      ///< samplerBuffer, one float a texel
-    FLOAT4,     ///< samplerBuffer, four floats
-    INTEGER4,   ///< isamplerBuffer, four integers
-    COLOR       ///< samplerBuffer, four bytes as 0 to 1
+    FLOAT,    ///< samplerBuffer, one float a texel
+    FLOAT4,   ///< samplerBuffer, four floats
+    INTEGER4, ///< isamplerBuffer, four integers
+    COLOR     ///< samplerBuffer, four bytes as 0 to 1
   };
 
   explicit vtkNURBSBufferTexture(Format format)

@@ -61,7 +61,8 @@ void vtkNURBSFaceLooks::AddLeaf(vtkMapper* mapper, const vtkNURBSDrawnModel::Lea
   vtkDataObject* block = leaf.Grid;
   const auto has = [&](auto test) { return attributes && (attributes->*test)(block); };
   using Attributes = vtkCompositeDataDisplayAttributes;
-  const bool hidden = has(&Attributes::HasBlockVisibility) && !attributes->GetBlockVisibility(block);
+  const bool hidden =
+    has(&Attributes::HasBlockVisibility) && !attributes->GetBlockVisibility(block);
   const bool hasColor = has(&Attributes::HasBlockColor);
   const bool hasOpacity = has(&Attributes::HasBlockOpacity);
   double color[3] = { 1.0, 1.0, 1.0 };

@@ -21,8 +21,8 @@ class vtkNURBSFaceLooks
 public:
   /// Looks at the mapper's settings and the model's attributes as they are now. True if something
   /// is other than at the last time.
-  bool Update(
-    vtkMapper* mapper, const vtkNURBSDrawnModel& model, vtkCompositeDataDisplayAttributes* attributes);
+  bool Update(vtkMapper* mapper, const vtkNURBSDrawnModel& model,
+    vtkCompositeDataDisplayAttributes* attributes);
 
   const std::vector<unsigned char>& GetBytes() const { return this->Bytes; }
   bool IsHidden(int surface) const { return this->Hidden[surface] != 0; }

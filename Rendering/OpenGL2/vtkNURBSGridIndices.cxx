@@ -17,8 +17,9 @@ void AppendTriangles(Indices& indices, int m, int n)
   {
     for (int i = 0; i < m; ++i)
     {
-      const auto at = [&](int a, int b)
-      { return static_cast<unsigned short>(i + a + (j + b) * (m + 1)); };
+      const auto at = [&](int a, int b) {
+        return static_cast<unsigned short>(i + a + (j + b) * (m + 1));
+      };
       indices.insert(indices.end(), { at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1) });
     }
   }
@@ -30,8 +31,9 @@ void AppendLines(Indices& indices, int m, int n)
   {
     for (int i = 0; i <= m; ++i)
     {
-      const auto at = [&](int a, int b)
-      { return static_cast<unsigned short>(i + a + (j + b) * (m + 1)); };
+      const auto at = [&](int a, int b) {
+        return static_cast<unsigned short>(i + a + (j + b) * (m + 1));
+      };
       if (i < m)
       {
         indices.insert(indices.end(), { at(0, 0), at(1, 0) });
@@ -98,8 +100,8 @@ void vtkNURBSGridIndices::Draw(int representation, int shape, int count) const
   const GLenum mode = representation == VTK_SURFACE ? GL_TRIANGLES
     : representation == VTK_WIREFRAME               ? GL_LINES
                                                     : GL_POINTS;
-  glDrawElementsInstanced(mode, range.Count, GL_UNSIGNED_SHORT,
-    reinterpret_cast<const void*>(range.Offset), count);
+  glDrawElementsInstanced(
+    mode, range.Count, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.Offset), count);
 }
 
 void vtkNURBSGridIndices::Release()

@@ -67,8 +67,9 @@ double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
 vtkNURBSMapper::vtkNURBSMapper()
   : Content(new Internals)
 {
-  this->Content->Watch->OnRelease = [this](vtkOpenGLRenderWindow* window)
-  { this->DeleteObjects(window); };
+  this->Content->Watch->OnRelease = [this](vtkOpenGLRenderWindow* window) {
+    this->DeleteObjects(window);
+  };
 }
 
 vtkNURBSMapper::~vtkNURBSMapper()
@@ -228,8 +229,8 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
   if (c.ModelIsSent)
   {
     std::sort(c.MovedSinceSent.begin(), c.MovedSinceSent.end());
-    c.MovedSinceSent.erase(std::unique(c.MovedSinceSent.begin(), c.MovedSinceSent.end()),
-      c.MovedSinceSent.end());
+    c.MovedSinceSent.erase(
+      std::unique(c.MovedSinceSent.begin(), c.MovedSinceSent.end()), c.MovedSinceSent.end());
     c.Textures.MoveSurfaces(table, c.MovedSinceSent);
     c.MovedSinceSent.clear();
     return true;
@@ -377,9 +378,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   const nurbs::SurfaceTable& table = c.Model.GetTable();
   constexpr int Batch = 64;
   std::vector<nurbs::TileSelection> parts((table.Size() + Batch - 1) / Batch);
-  vtkNURBSParallelFor(0, static_cast<std::int64_t>(parts.size()),
-    [&](std::int64_t first, std::int64_t last)
-    {
+  vtkNURBSParallelFor(
+    0, static_cast<std::int64_t>(parts.size()), [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t p = first; p < last; ++p)
       {
         const int end = std::min(static_cast<int>(p + 1) * Batch, table.Size());
@@ -402,8 +402,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   c.TilesAreReady = c.Textures.Prepare(window, table, c.Selection.Tiles);
   if (!c.TilesAreReady)
   {
-    vtkErrorMacro("The model can't be drawn at " << this->PixelError
-                                                 << " pixels: " << c.Textures.GetError());
+    vtkErrorMacro(
+      "The model can't be drawn at " << this->PixelError << " pixels: " << c.Textures.GetError());
   }
   this->NumberOfTriangles = 2 * c.Selection.Cells;
   this->AchievedPixelError = c.Selection.PixelError;
@@ -444,7 +444,8 @@ void vtkNURBSMapper::UpdateSamples(vtkRenderer* renderer)
 void vtkNURBSMapper::UpdateEconomy(vtkRenderer* renderer)
 {
   Internals& c = *this->Content;
-  const double asked = renderer->GetSelector() ? 0.0 : renderer->GetRenderWindow()->GetDesiredUpdateRate();
+  const double asked =
+    renderer->GetSelector() ? 0.0 : renderer->GetRenderWindow()->GetDesiredUpdateRate();
   const bool exact = c.FrameRate.LooksForPoints();
   c.FrameRate.Decide(asked, this->InteractiveFrameRate, this->TimeToDraw);
   if (exact != c.FrameRate.LooksForPoints())
@@ -504,7 +505,8 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     vtkOpenGLCheckErrorMacro("failed after drawing tiles");
   }
   c.Textures.Deactivate(window);
-  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
+  for (vtkNURBSBufferTexture* buffer :
+    { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
   {
     buffer->Deactivate(window);
   }
@@ -582,8 +584,8 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "InteractiveFrameRate: " << this->InteractiveFrameRate << "\n"
      << indent << "Look: " << this->Look << "\n"
      << indent << "LookTable: " << this->LookTable.Get() << "\n"
-     << indent << "LookDirection: " << this->LookDirection[0] << " " << this->LookDirection[1] << " "
-     << this->LookDirection[2] << "\n"
+     << indent << "LookDirection: " << this->LookDirection[0] << " " << this->LookDirection[1]
+     << " " << this->LookDirection[2] << "\n"
      << indent << "NumberOfStripes: " << this->NumberOfStripes << "\n"
      << indent << "NumberOfIsoLines: " << this->NumberOfIsoLines[0] << " "
      << this->NumberOfIsoLines[1] << "\n"

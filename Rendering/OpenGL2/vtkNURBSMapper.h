@@ -209,8 +209,8 @@ public:
   bool HasOpaqueGeometry() override;
   bool HasTranslucentPolygonalGeometry() override;
   void ShallowCopy(vtkAbstractMapper* other) override;
-  void ProcessSelectorPixelBuffers(vtkHardwareSelector* selector,
-    std::vector<unsigned int>& pixelOffsets, vtkProp* prop) override;
+  void ProcessSelectorPixelBuffers(
+    vtkHardwareSelector* selector, std::vector<unsigned int>& pixelOffsets, vtkProp* prop) override;
   vtkMTimeType GetMTime() override;
   ///@}
 
@@ -223,8 +223,8 @@ protected:
   void UpdateCameraShiftScale(vtkRenderer* renderer, vtkActor* actor) override;
   void UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
   void UpdateMaximumPointCellIds(vtkRenderer* renderer, vtkActor* actor) override;
-  void ReplaceShaderValues(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
-    vtkActor* actor) override;
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void SetMapperShaderParameters(
     vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
   bool HaveWideLines(vtkRenderer*, vtkActor*) override { return false; }
@@ -257,8 +257,7 @@ private:
   std::string GetDefines(vtkActor* actor);
   void SetSurfaceParameters(
     vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
-  void SetLookParameters(
-    vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
+  void SetLookParameters(vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
   void DeleteObjects(vtkOpenGLRenderWindow* window);
   void UpdateSamples(vtkRenderer* renderer);

@@ -28,11 +28,13 @@ void vtkNURBSMapper::ReplaceShaderValues(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
 {
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
-  const auto substitute = [](std::string& source, const char* from, const std::string& to)
-  { vtkShaderProgram::Substitute(source, from, to); };
+  const auto substitute = [](std::string& source, const char* from, const std::string& to) {
+    vtkShaderProgram::Substitute(source, from, to);
+  };
   const bool exact = this->DrawsExactly(actor);
   const std::string defines = this->GetDefines(actor);
-  std::string functions = defines + nurbsTile + nurbsTrim + (exact ? nurbsExact : "") + nurbsFragment;
+  std::string functions =
+    defines + nurbsTile + nurbsTrim + (exact ? nurbsExact : "") + nurbsFragment;
   substitute(functions, "//NURBS::Look::Dec", exact ? nurbsLook : "");
   substitute(fragment, "//VTK::PositionVC::Dec", functions + "//VTK::PositionVC::Dec");
   if (this->Content->Samples > 0)
@@ -41,11 +43,11 @@ void vtkNURBSMapper::ReplaceShaderValues(
       "//VTK::System::Dec\n#extension GL_ARB_sample_shading : require\n");
   }
   substitute(fragment, "//VTK::PositionVC::Impl",
-    std::string("  nurbsBeginFragment();\n") + (this->HasLook(actor) ? "  nurbsBeginLook();\n" : "") +
-      "  //VTK::PositionVC::Impl\n");
+    std::string("  nurbsBeginFragment();\n") +
+      (this->HasLook(actor) ? "  nurbsBeginLook();\n" : "") + "  //VTK::PositionVC::Impl\n");
   // Before depth peeling, which looks at the depth of what stays.
-  substitute(fragment, "//VTK::Depth::Impl",
-    "  if (!nurbsIsSeen) { discard; }\n  //VTK::Depth::Impl\n");
+  substitute(
+    fragment, "//VTK::Depth::Impl", "  if (!nurbsIsSeen) { discard; }\n  //VTK::Depth::Impl\n");
   substitute(fragment, "//VTK::Color::Impl",
     "  //VTK::Color::Impl\n"
     "  nurbsColor(ambientIntensity, diffuseIntensity, ambientColor, diffuseColor, opacity);\n");
@@ -151,8 +153,7 @@ void vtkNURBSMapper::SetMapperShaderParameters(
   auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
   vtkShaderProgram* program = helper.Program;
   c.Textures.Activate(window, program);
-  const auto set = [&](const char* name, vtkNURBSBufferTexture& buffer)
-  {
+  const auto set = [&](const char* name, vtkNURBSBufferTexture& buffer) {
     if (program->IsUniformUsed(name))
     {
       program->SetUniformi(name, buffer.Activate(window));
@@ -202,7 +203,9 @@ void vtkNURBSMapper::SetSurfaceParameters(
   program->SetUniform3f("nurbsDepthAxis", axis.data());
   vtkProperty* property = actor->GetProperty();
   program->SetUniformi("nurbsCulled",
-    property->GetBackfaceCulling() ? 1 : property->GetFrontfaceCulling() ? 2 : 0);
+    property->GetBackfaceCulling()      ? 1
+      : property->GetFrontfaceCulling() ? 2
+                                        : 0);
   if (c.Samples > 0)
   {
     std::vector<float> places(2 * c.Samples);
@@ -251,11 +254,10 @@ void vtkNURBSMapper::SetLookParameters(
     c.LookColors.Upload(colors.data(), colors.size());
     program->SetUniformi("nurbsLookTable", c.LookColors.Activate(window));
   }
-  const auto set = [&](const char* name, int count, const float* values)
-  {
+  const auto set = [&](const char* name, int count, const float* values) {
     if (program->IsUniformUsed(name))
     {
-      count == 1 ? program->SetUniformf(name, values[0])
+      count == 1     ? program->SetUniformf(name, values[0])
         : count == 2 ? program->SetUniform2f(name, values)
                      : program->SetUniform3f(name, values);
     }

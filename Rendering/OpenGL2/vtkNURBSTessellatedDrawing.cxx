@@ -34,7 +34,8 @@ double ScaleOf(vtkRenderer* renderer, const double* bounds)
   {
     nearest[k] = std::min(std::max(camera->GetPosition()[k], bounds[2 * k]), bounds[2 * k + 1]);
   }
-  const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(nearest, camera->GetPosition()));
+  const double distance =
+    std::sqrt(vtkMath::Distance2BetweenPoints(nearest, camera->GetPosition()));
   return height /
     (2.0 * std::tan(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())) *
       std::max(distance, camera->GetClippingRange()[0]));
@@ -79,9 +80,9 @@ void vtkNURBSTessellatedDrawing::Render(
   const bool isComposite = input->IsA("vtkCompositeDataSet");
   if (!this->Triangles || isComposite != (this->Triangles->IsA("vtkCompositePolyDataMapper2") != 0))
   {
-    this->Triangles = isComposite ? vtkSmartPointer<vtkPolyDataMapper>(
-                                      vtkSmartPointer<vtkCompositePolyDataMapper2>::New())
-                                  : vtkSmartPointer<vtkPolyDataMapper>::New();
+    this->Triangles = isComposite
+      ? vtkSmartPointer<vtkPolyDataMapper>(vtkSmartPointer<vtkCompositePolyDataMapper2>::New())
+      : vtkSmartPointer<vtkPolyDataMapper>::New();
     this->Scale = 0.0;
   }
   const double scale = ScaleOf(renderer, actor->GetBounds());

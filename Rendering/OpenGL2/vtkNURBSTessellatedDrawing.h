@@ -30,8 +30,7 @@ public:
   vtkNURBSTessellatedDrawing& operator=(const vtkNURBSTessellatedDrawing&) = delete;
 
   /// Draws the input as `mapper` is told to: colours, clipping planes, blocks.
-  void Render(
-    vtkNURBSMapper* mapper, vtkDataObject* input, vtkRenderer* renderer, vtkActor* actor);
+  void Render(vtkNURBSMapper* mapper, vtkDataObject* input, vtkRenderer* renderer, vtkActor* actor);
   void ReleaseGraphicsResources(vtkWindow* window);
   /// Of the last Render.
   vtkIdType GetNumberOfTriangles() const { return this->NumberOfTriangles; }

@@ -29,19 +29,18 @@ std::array<int, 4> Encode(const nurbs::Tile& tile, const nurbs::TileAtlas::Slot&
 {
   const auto pack = [](unsigned low, unsigned high) { return static_cast<int>(low | high << 16); };
   return { pack(slot.X, slot.Y),
-    static_cast<int>(unsigned(tile.Surface) | unsigned(tile.Log[0]) << 24 | unsigned(tile.Log[1]) << 28),
+    static_cast<int>(
+      unsigned(tile.Surface) | unsigned(tile.Log[0]) << 24 | unsigned(tile.Log[1]) << 28),
     pack(tile.Span[0], tile.Span[1]), pack(tile.First[0], tile.First[1]) };
 }
 
-void AppendOrigin(
-  std::vector<float>& origins, const nurbs::TableSurface& surface, double tolerance)
+void AppendOrigin(std::vector<float>& origins, const nurbs::TableSurface& surface, double tolerance)
 {
   const nurbs::Vec3& origin = surface.Origin;
   const Eigen::Vector3f high = origin.cast<float>();
   const Eigen::Vector3f low = (origin - high.cast<double>()).cast<float>();
-  origins.insert(origins.end(), 
-    { high[0], high[1], high[2], float(tolerance), low[0], low[1],
-    low[2], float(surface.Radius) });
+  origins.insert(origins.end(),
+    { high[0], high[1], high[2], float(tolerance), low[0], low[1], low[2], float(surface.Radius) });
 }
 
 } // namespace
@@ -68,8 +67,8 @@ std::string vtkNURBSTileTextures::GetMissingFeature(vtkOpenGLRenderWindow* windo
   return "";
 }
 
-bool vtkNURBSTileTextures::SetTable(const nurbs::SurfaceTable& table,
-  const std::vector<SurfaceInfo>& infos)
+bool vtkNURBSTileTextures::SetTable(
+  const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos)
 {
   std::vector<int> surfaces;
   std::vector<float> origins;
@@ -86,8 +85,7 @@ bool vtkNURBSTileTextures::SetTable(const nurbs::SurfaceTable& table,
   this->Atlas.Clear();
   this->Error.clear();
   const auto send = [&](vtkNURBSBufferTexture& buffer, const auto& data, const char* what) {
-    if (this->Error.empty() &&
-      !buffer.Upload(data.data(), data.size() * sizeof(data[0])))
+    if (this->Error.empty() && !buffer.Upload(data.data(), data.size() * sizeof(data[0])))
     {
       this->Error = std::string("the device can't hold this model's ") + what;
     }
@@ -187,9 +185,9 @@ bool vtkNURBSTileTextures::PlaceTiles(vtkOpenGLRenderWindow* window,
       if (fits && isNew)
       {
         const nurbs::SurfaceView& view = table[tile.Surface].View;
-        jobs.push_back({ static_cast<int>(i), 0, 0,
-          { (1 << tile.CellsLog(0)) + 1, (1 << tile.CellsLog(1)) + 1 },
-          { view.Degree[0], view.Degree[1] } });
+        jobs.push_back(
+          { static_cast<int>(i), 0, 0, { (1 << tile.CellsLog(0)) + 1, (1 << tile.CellsLog(1)) + 1 },
+            { view.Degree[0], view.Degree[1] } });
       }
     }
     if (!fits)
@@ -350,8 +348,7 @@ void vtkNURBSTileTextures::RunPass(
   state->PopFramebufferBindings();
 }
 
-vtkShaderProgram* vtkNURBSTileTextures::Program(
-  vtkOpenGLRenderWindow* window, int dir, int degree)
+vtkShaderProgram* vtkNURBSTileTextures::Program(vtkOpenGLRenderWindow* window, int dir, int degree)
 {
   std::string vertex = nurbsEvaluateVS, fragment = nurbsEvaluateFS;
   const std::string defines = "//VTK::System::Dec\n#define DEGREE " + std::to_string(degree) +
@@ -403,8 +400,8 @@ void vtkNURBSTileTextures::Release(vtkOpenGLRenderWindow* window)
   this->RowBuffer->ReleaseGraphicsResources(window);
   this->AtlasBuffer->ReleaseGraphicsResources(window);
   this->NoAttributes->ReleaseGraphicsResources();
-  for (vtkNURBSBufferTexture* buffer : { &this->Points, &this->Knots, &this->Surfaces,
-         &this->Origins, &this->Tiles, &this->Jobs })
+  for (vtkNURBSBufferTexture* buffer :
+    { &this->Points, &this->Knots, &this->Surfaces, &this->Origins, &this->Tiles, &this->Jobs })
   {
     buffer->Release();
   }

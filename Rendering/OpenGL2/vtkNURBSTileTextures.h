@@ -54,8 +54,7 @@ public:
   static std::string GetMissingFeature(vtkOpenGLRenderWindow* window);
 
   /// Sends a table, and forgets all tiles. False, and GetError tells why, if it does not fit.
-  bool SetTable(const nurbs::SurfaceTable& table,
-    const std::vector<SurfaceInfo>& infos);
+  bool SetTable(const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos);
   /// Sends the moved control points of surfaces (ascending) of that table, and forgets their tiles.
   void MoveSurfaces(const nurbs::SurfaceTable& table, const std::vector<int>& surfaces);
 
@@ -93,8 +92,8 @@ private:
     const nurbs::SurfaceTable& table, std::vector<Job>& jobs);
   void MakeAtlas(vtkOpenGLRenderWindow* window, int pagesX, int pagesY);
   void Evaluate(vtkOpenGLRenderWindow* window, std::vector<Job>& jobs);
-  void RunBatch(vtkOpenGLRenderWindow* window, std::vector<Job>& jobs, std::size_t first,
-    std::size_t last);
+  void RunBatch(
+    vtkOpenGLRenderWindow* window, std::vector<Job>& jobs, std::size_t first, std::size_t last);
   void RunPass(vtkOpenGLRenderWindow* window, const std::vector<Job>& jobs, int dir);
   vtkShaderProgram* Program(vtkOpenGLRenderWindow* window, int dir, int degree);
 

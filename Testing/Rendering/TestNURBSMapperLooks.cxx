@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What vtkNURBSMapper shows of the exact surface, pixel by pixel, against the CPU's derivatives; samples
 // of a pixel; levels while the camera moves.
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"
-#include "vtkNURBSEGLRenderWindow.h"
+#include "vtkMapperScene.h"
 #include "vtkNURBSMapper.h"
 #include "vtkNURBSShapeSource.h"
 #include "vtkNew.h"
@@ -22,7 +21,6 @@
 namespace
 {
 
-using Window = vtkSmartPointer<vtkNURBSEGLRenderWindow>;
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
 constexpr int Size = 120;
@@ -36,29 +34,21 @@ Grid Shape(int shape)
   return source->GetOutput();
 }
 
-struct Scene
+// White and unlit on blue, so that a pixel's red is what the look makes of it.
+struct Scene : vtkMapperScene
 {
-  vtkNew<vtkNURBSMapper> Mapper;
-  vtkNew<vtkActor> Actor;
-  vtkNew<vtkRenderer> Renderer;
-  Window RenderWindow;
-
   explicit Scene(vtkDataObject* model, int samples = 0)
+    : vtkMapperScene(model, Size)
   {
-    this->Mapper->SetInputData(model);
-    this->Actor->SetMapper(this->Mapper);
     this->Actor->GetProperty()->LightingOff();
     this->Actor->GetProperty()->SetColor(1.0, 1.0, 1.0);
-    this->Renderer->AddActor(this->Actor);
     this->Renderer->SetBackground(0.0, 0.0, 0.5);
-    this->RenderWindow = Window::Take(vtkNURBSEGLRenderWindow::Create(Size, Size));
-    this->RenderWindow->SetMultiSamples(samples);
-    this->RenderWindow->AddRenderer(this->Renderer);
+    this->Window->SetMultiSamples(samples);
     this->Renderer->GetActiveCamera()->SetPosition(2.0, -3.0, 3.5);
+    this->Renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
     this->Renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
     this->Renderer->ResetCamera();
   }
-  vtkSmartPointer<vtkImageData> Take() { return vtkTestImage::Take(this->RenderWindow); }
 };
 
 // Grey levels over a range.
@@ -92,7 +82,7 @@ long CompareGreys(Scene& scene, vtkUnstructuredGrid* grid, double tolerance,
   const std::function<double(const nurbs::RayHit&, const nurbs::Ray&)>& value)
 {
   const vtkRayReference reference(grid);
-  auto image = scene.Take();
+  auto image = scene.Picture();
   long compared = 0, wrong = 0;
   for (int y = 1; y + 1 < Size; ++y)
   {
@@ -126,13 +116,12 @@ TEST_P(CurvatureLooks, AreThoseOfTheFundamentalForms)
     const vtkRayReference reference(model);
     Scene scene(model);
     const bool isGauss = this->GetParam() == vtkNURBSMapper::GAUSSIAN_CURVATURE;
-    const double limit = shape == vtkNURBSShapeSource::TORUS ? (isGauss ? 12.0 : 4.0)
-                                                             : (isGauss ? 0.05 : 0.25);
+    const double limit =
+      shape == vtkNURBSShapeSource::TORUS ? (isGauss ? 12.0 : 4.0) : (isGauss ? 0.05 : 0.25);
     scene.Mapper->SetLook(this->GetParam());
     scene.Mapper->SetLookTable(Greys(-limit, limit));
-    const long compared = CompareGreys(scene, model, 2.0 / 255.0,
-      [&](const nurbs::RayHit& hit, const nurbs::Ray&)
-      {
+    const long compared =
+      CompareGreys(scene, model, 2.0 / 255.0, [&](const nurbs::RayHit& hit, const nurbs::Ray&) {
         const nurbs::Face& face = reference.GetFace(hit.Face);
         const Curvatures c = CurvaturesAt(face.Geometry, hit.U, hit.V, face.Reversed);
         const double root = std::sqrt(std::max(c.Mean * c.Mean - c.Gauss, 0.0));
@@ -165,8 +154,7 @@ TEST(Looks, DraftAngleIsThatOfSurfaceAndDirection)
   scene.Mapper->SetLookTable(Greys(-90.0, 90.0));
   scene.Mapper->SetLookDirection(0.0, 2.0, 2.0);
   EXPECT_GT(CompareGreys(scene, model, 1.5 / 255.0,
-              [](const nurbs::RayHit& hit, const nurbs::Ray&)
-              {
+              [](const nurbs::RayHit& hit, const nurbs::Ray&) {
                 const double sine = hit.Normal.dot(nurbs::Vec3(0.0, 1.0, 1.0).normalized());
                 return 0.5 + std::asin(std::clamp(sine, -1.0, 1.0)) / M_PI;
               }),
@@ -195,13 +183,13 @@ TEST(Looks, IsophotesAndZebraStripes)
   scene.Mapper->SetNumberOfStripes(8);
   scene.Mapper->SetLook(vtkNURBSMapper::ISOPHOTES);
   EXPECT_GT(CompareGreys(scene, model, 0.02,
-              [](const nurbs::RayHit& hit, const nurbs::Ray& ray)
-              { return IsSteep(hit, ray) ? -1.0 : Stripe(hit.Normal.z(), 8); }),
+              [](const nurbs::RayHit& hit, const nurbs::Ray& ray) {
+                return IsSteep(hit, ray) ? -1.0 : Stripe(hit.Normal.z(), 8);
+              }),
     1000);
   scene.Mapper->SetLook(vtkNURBSMapper::ZEBRA);
   EXPECT_GT(CompareGreys(scene, model, 0.02,
-              [](const nurbs::RayHit& hit, const nurbs::Ray& ray)
-              {
+              [](const nurbs::RayHit& hit, const nurbs::Ray& ray) {
                 const nurbs::Vec3 mirrored =
                   ray.Direction - 2.0 * ray.Direction.dot(hit.Normal) * hit.Normal;
                 return IsSteep(hit, ray) ? -1.0 : Stripe(mirrored.z(), 8);
@@ -224,9 +212,8 @@ TEST(Looks, IsoLinesAndEdgesAreAsWideAsAsked)
   camera->SetViewUp(0.0, 1.0, 0.0);
   camera->SetParallelScale(2.0);
   scene.Renderer->ResetCameraClippingRange();
-  const auto blackness = [&]
-  {
-    auto image = scene.Take();
+  const auto blackness = [&] {
+    auto image = scene.Picture();
     double sum = 0.0;
     for (int k = 0; k < Size * Size; ++k)
     {
@@ -272,8 +259,7 @@ TEST(Samples, CoverPixelsAsTheSurfaceDoes)
     Grid model = Shape(shape);
     const vtkRayReference reference(model);
     Scene scene(model, 4);
-    scene.RenderWindow->Render();
-    auto image = scene.Take();
+    auto image = scene.Picture();
     double sum = 0.0, worst = 0.0;
     long partly = 0;
     for (int y = 1; y + 1 < Size; ++y)
@@ -303,16 +289,16 @@ TEST(FrameRate, LevelsFallWhileTheCameraMovesAndRiseWhenItStops)
 {
   Grid model = Shape(vtkNURBSShapeSource::TEAPOT);
   Scene scene(model);
-  auto still = scene.Take();
+  auto still = scene.Picture();
   const vtkIdType evaluated = scene.Mapper->GetNumberOfEvaluatedVertices();
   scene.Mapper->SetInteractiveFrameRate(1000.0); // out of reach
-  scene.RenderWindow->SetDesiredUpdateRate(15.0);
+  scene.Window->SetDesiredUpdateRate(15.0);
   double last = 0.0;
-  auto before = scene.Take();
+  auto before = scene.Picture();
   double jump = 0.0;
   for (int frame = 0; frame < 12; ++frame)
   {
-    auto now = scene.Take();
+    auto now = scene.Picture();
     EXPECT_LE(scene.Mapper->GetCoarserLevels() - last, 0.2501);
     last = scene.Mapper->GetCoarserLevels();
     jump = std::max(jump, vtkTestImage::MeanDifference(before, now));
@@ -322,8 +308,8 @@ TEST(FrameRate, LevelsFallWhileTheCameraMovesAndRiseWhenItStops)
   // Nothing was evaluated again, and no step between frames changed much (0 to 255 a pixel).
   EXPECT_EQ(scene.Mapper->GetNumberOfEvaluatedVertices(), evaluated);
   EXPECT_LT(jump, 2.0);
-  scene.RenderWindow->SetDesiredUpdateRate(0.0001);
-  EXPECT_EQ(vtkTestImage::MeanDifference(still, scene.Take()), 0.0);
+  scene.Window->SetDesiredUpdateRate(0.0001);
+  EXPECT_EQ(vtkTestImage::MeanDifference(still, scene.Picture()), 0.0);
   EXPECT_EQ(scene.Mapper->GetCoarserLevels(), 0.0);
 }
 
@@ -332,10 +318,10 @@ TEST(Tessellation, DrawsTheSamePicture)
   Grid model = Shape(vtkNURBSShapeSource::TEAPOT);
   Scene scene(model);
   scene.Actor->GetProperty()->LightingOn();
-  auto exact = scene.Take();
+  auto exact = scene.Picture();
   EXPECT_FALSE(scene.Mapper->GetDrawsTessellation());
   scene.Mapper->UseTessellationOn();
-  auto triangles = scene.Take();
+  auto triangles = scene.Picture();
   EXPECT_TRUE(scene.Mapper->GetDrawsTessellation());
   EXPECT_GT(scene.Mapper->GetNumberOfTriangles(), 100);
   EXPECT_LT(vtkTestImage::MeanDifference(exact, triangles), 1.5);

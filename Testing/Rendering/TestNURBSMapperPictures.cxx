@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of vtkNURBSMapper against rays cast at the exact surfaces.
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkHardwareSelector.h"
+#include "vtkMapperScene.h"
 #include "vtkNURBSCADReader.h"
-#include "vtkNURBSEGLRenderWindow.h"
 #include "vtkNURBSMapper.h"
 #include "vtkNURBSShapeSource.h"
 #include "vtkNew.h"
-#include "vtkProperty.h"
 #include "vtkRayReference.h"
 #include "vtkRenderer.h"
 #include "vtkTestImage.h"
@@ -28,77 +25,44 @@
 namespace
 {
 
-using Window = vtkSmartPointer<vtkNURBSEGLRenderWindow>;
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
 constexpr int Size = 200;
 
-struct Scene
+void Look(vtkRenderer* renderer)
 {
-  vtkNew<vtkNURBSMapper> Mapper;
-  vtkNew<vtkActor> Actor;
-  vtkNew<vtkRenderer> Renderer;
-  Window RenderWindow;
+  renderer->GetActiveCamera()->SetPosition(3.0, -4.0, 2.5);
+  renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+  renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
+  renderer->ResetCamera();
+}
 
-  explicit Scene(vtkDataObject* model)
-  {
-    this->Mapper->SetInputData(model);
-    this->Actor->SetMapper(this->Mapper);
-    this->Renderer->AddActor(this->Actor);
-    this->Renderer->SetBackground(0.1, 0.2, 0.4);
-    this->RenderWindow = Window::Take(vtkNURBSEGLRenderWindow::Create(Size, Size));
-    this->RenderWindow->SetMultiSamples(0);
-    this->RenderWindow->AddRenderer(this->Renderer);
-    this->Renderer->GetActiveCamera()->SetPosition(3.0, -4.0, 2.5);
-    this->Renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
-    this->Renderer->ResetCamera();
-  }
-
-  // Looks at a point of the model from where the camera is, `times` as large.
-  void Zoom(const nurbs::Vec3& target, double times)
-  {
-    vtkCamera* camera = this->Renderer->GetActiveCamera();
-    camera->SetFocalPoint(target.data());
-    camera->SetViewAngle(
-      2.0 * std::atan(std::tan(camera->GetViewAngle() * M_PI / 360.0) / times) * 180.0 / M_PI);
-    this->Renderer->ResetCameraClippingRange();
-  }
-};
+// Looks at a point of the model from where the camera is, `times` as large.
+void Zoom(vtkRenderer* renderer, const nurbs::Vec3& target, double times)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetFocalPoint(target.data());
+  camera->SetViewAngle(
+    2.0 * std::atan(std::tan(camera->GetViewAngle() * M_PI / 360.0) / times) * 180.0 / M_PI);
+  renderer->ResetCameraClippingRange();
+}
 
 // What the picture has other than the rays.
 struct Difference
 {
-  long Border = 0;  ///< Pixels at which what is seen changes: silhouettes, trims, edges.
-  long Covered = 0; ///< Pixels that are surface in one and background in the other.
-  long Faces = 0;   ///< Pixels of different faces,
+  long Border = 0;   ///< Pixels at which what is seen changes: silhouettes, trims, edges.
+  long Covered = 0;  ///< Pixels that are surface in one and background in the other.
+  long Faces = 0;    ///< Pixels of different faces,
   long FarFaces = 0; ///< and those of them that are not beside a border.
   /// Distance of what is drawn from the surface, in pixels, that one pixel of 1000 exceeds.
   double Off = 0.0;
 };
 
-std::vector<int> FacesOfPicture(Scene& scene)
+Difference Compare(vtkMapperScene& scene, const vtkRayReference& reference)
 {
-  vtkNew<vtkHardwareSelector> selector;
-  selector->SetRenderer(scene.Renderer);
-  selector->SetArea(0, 0, Size - 1, Size - 1);
-  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_CELLS);
-  std::vector<int> faces(std::size_t(Size) * Size, -1);
-  EXPECT_TRUE(selector->CaptureBuffers());
-  for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    const unsigned int place[2] = { k % Size, k / Size };
-    const vtkHardwareSelector::PixelInformation info = selector->GetPixelInformation(place);
-    faces[k] = info.Valid ? static_cast<int>(info.AttributeID) : -1;
-  }
-  return faces;
-}
-
-Difference Compare(Scene& scene, const vtkRayReference& reference)
-{
-  scene.RenderWindow->Render();
-  std::vector<float> depth(std::size_t(Size) * Size);
-  scene.RenderWindow->GetZbufferData(0, 0, Size - 1, Size - 1, depth.data());
-  const std::vector<int> faces = FacesOfPicture(scene);
+  scene.Picture();
+  const std::vector<float> depth = scene.Depths();
+  const std::vector<int> faces = scene.SelectCells();
   const std::vector<vtkRayReference::Pixel> rays = reference.Cast(scene.Renderer);
   vtkCamera* camera = scene.Renderer->GetActiveCamera();
   const double near = camera->GetClippingRange()[0], far = camera->GetClippingRange()[1];
@@ -127,9 +91,9 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
       {
         const auto distance = [&](double z) { return near * far / (far - z * (far - near)); };
         const double d = distance(rays[k].Depth);
-        const nurbs::Vec3 along =
-          reference.PixelRay(scene.Renderer, x + 0.5, y + 0.5).Direction;
-          off.push_back(std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d));
+        const nurbs::Vec3 along = reference.PixelRay(scene.Renderer, x + 0.5, y + 0.5).Direction;
+        off.push_back(
+          std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d));
       }
     }
   }
@@ -142,7 +106,7 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
 }
 
 // A point of the model at which its silhouette, or a trim, is seen.
-nurbs::Vec3 SomeBorder(Scene& scene, const vtkRayReference& reference)
+nurbs::Vec3 SomeBorder(vtkMapperScene& scene, const vtkRayReference& reference)
 {
   const auto rays = reference.Cast(scene.Renderer);
   int k = Size * Size / 3;
@@ -236,19 +200,21 @@ TEST_P(Pictures, AreThoseOfTheExactSurface)
     GTEST_SKIP() << "Debian's occt-misc is not installed";
   }
   const vtkRayReference reference(model);
-  Scene scene(model);
+  vtkMapperScene scene(model, Size);
+  Look(scene.Renderer);
   for (const double zoom : { 1.0, 1000.0 })
   {
     if (zoom > 1.0)
     {
-      scene.Zoom(SomeBorder(scene, reference), zoom);
+      Zoom(scene.Renderer, SomeBorder(scene, reference), zoom);
     }
     const Difference d = Compare(scene, reference);
-    std::printf("%s at %gx: %ld border pixels, %ld covered otherwise, %ld of other faces (%ld not at a "
-                "border), surface off by %.3g pixels in all but one of 1000, %lld triangles\n",
+    std::printf(
+      "%s at %gx: %ld border pixels, %ld covered otherwise, %ld of other faces (%ld not at a "
+      "border), surface off by %.3g pixels in all but one of 1000, %lld triangles\n",
       this->GetParam().Name, zoom, d.Border, d.Covered, d.Faces, d.FarFaces, d.Off,
       static_cast<long long>(scene.Mapper->GetNumberOfTriangles()));
-    vtkTestImage::Write(vtkTestImage::Take(scene.RenderWindow), FileName(this->GetParam(), zoom));
+    vtkTestImage::Write(scene.Picture(), FileName(this->GetParam(), zoom));
     // One pixel of 1000 at borders, and a few where outlines, trims or tolerances meet. Enlarged 1000
     // times, single precision knows a border to some hundredths of a pixel.
     EXPECT_LE(d.Covered, (zoom > 1.0 ? 0.02 : 0.001) * d.Border + 4);
@@ -260,11 +226,12 @@ TEST_P(Pictures, AreThoseOfTheExactSurface)
 
 INSTANTIATE_TEST_SUITE_P(Models, Pictures,
   testing::Values(Model{ "sphere", vtkNURBSShapeSource::SPHERE },
-    Model{ "torus", vtkNURBSShapeSource::TORUS }, Model{ "cylinder", vtkNURBSShapeSource::CYLINDER },
-    Model{ "cone", vtkNURBSShapeSource::CONE }, Model{ "disc", vtkNURBSShapeSource::DISC },
-    Model{ "plate", vtkNURBSShapeSource::PLATE }, Model{ "teapot", vtkNURBSShapeSource::TEAPOT },
-    Model{ "sheet", vtkNURBSShapeSource::SHEET }, Model{ "car", vtkNURBSShapeSource::CAR_BODY },
-    Model{ "step/linkrods.step" }, Model{ "step/screw.step" }, Model{ "occ/bottle.brep" },
-    Model{ "occ/Pump_Nut.brep" }, Model{ "occ/wing.brep" }));
+    Model{ "torus", vtkNURBSShapeSource::TORUS },
+    Model{ "cylinder", vtkNURBSShapeSource::CYLINDER }, Model{ "cone", vtkNURBSShapeSource::CONE },
+    Model{ "disc", vtkNURBSShapeSource::DISC }, Model{ "plate", vtkNURBSShapeSource::PLATE },
+    Model{ "teapot", vtkNURBSShapeSource::TEAPOT }, Model{ "sheet", vtkNURBSShapeSource::SHEET },
+    Model{ "car", vtkNURBSShapeSource::CAR_BODY }, Model{ "step/linkrods.step" },
+    Model{ "step/screw.step" }, Model{ "occ/bottle.brep" }, Model{ "occ/Pump_Nut.brep" },
+    Model{ "occ/wing.brep" }));
 
 } // namespace

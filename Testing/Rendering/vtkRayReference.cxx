@@ -61,7 +61,8 @@ std::vector<vtkRayReference::Pixel> vtkRayReference::Cast(vtkRenderer* renderer)
       if (this->Caster.Nearest(ray, hit))
       {
         const nurbs::Vec4 clip = toClip * hit.Point.homogeneous();
-        pixels[k] = { static_cast<int>(hit.Face), 0.5 + 0.5 * clip[2] / clip[3], hit.T, hit.Normal };
+        pixels[k] = { static_cast<int>(hit.Face), 0.5 + 0.5 * clip[2] / clip[3], hit.T,
+          hit.Normal };
       }
     }
   });
