@@ -59,6 +59,7 @@ public:
     , View(view)
     , Selection(selection)
     , Domain{ Surface.View.Domain(0), Surface.View.Domain(1) }
+    , Pixels(PixelsPerUnit(view, 1.0))
   {}
 
   void Select()
@@ -159,8 +160,8 @@ private:
       return;
     }
     const auto& second = this->Surface.Patch(i, j).Second;
-    const auto pixels = [&](double w) { return PixelsPerUnit(this->View, w); };
-    double scale = pixels(std::max(LeastDepth(this->View.ModelToClip, box), this->View.Near));
+    double scale =
+      this->Pixels / std::max(LeastDepth(this->View.ModelToClip, box), this->View.Near);
     const int coarse[2] = { Tile::MaxLog, Tile::MaxLog };
     if (Bow(second, coarse) * scale > this->View.PixelError)
     {
@@ -169,7 +170,7 @@ private:
       {
         return;
       }
-      scale = pixels(w);
+      scale = this->Pixels / w;
     }
     const double tolerance = this->View.PixelError / scale;
     int log[2] = { LogFor(second[0], tolerance), LogFor(second[2], tolerance) };
@@ -244,6 +245,7 @@ private:
   const TileView& View;
   TileSelection& Selection;
   Interval Domain[2];
+  double Pixels; ///< Of a unit of length at depth 1.
   std::vector<int> Logs[2]; ///< Of each column and row; -1: nothing of it is seen.
 };
 

@@ -107,10 +107,22 @@ nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
   return box.intersection(whole);
 }
 
+// Checks what drawing needs: edges' curves are not drawn, and loops that were sound before points
+// moved are sound.
+std::shared_ptr<const vtkNURBSModelView> ViewOf(
+  vtkUnstructuredGrid* grid, const vtkNURBSModelView* before)
+{
+  nurbs::AssembleOptions options;
+  options.CheckEdges = false;
+  options.CheckLoops = !before || !before->DescribeFaceErrors().empty();
+  return std::make_shared<const vtkNURBSModelView>(grid, options);
+}
+
 } // namespace
 
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
 {
+  const vtkNURBSParallelScope parallel;
   std::vector<Leaf> leaves = LeavesOf(input);
   this->Moved.clear();
   this->Warnings.clear();
@@ -134,7 +146,7 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
     Leaf& leaf = leaves[i];
     leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
       ? this->Leaves[i].View
-      : vtkNURBSModel::View(leaf.Grid);
+      : ViewOf(leaf.Grid, sameStructure ? this->Leaves[i].View.get() : nullptr);
     leaf.First = i == 0
       ? 0
       : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
