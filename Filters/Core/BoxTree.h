@@ -2,9 +2,9 @@
 /// @file BoxTree.h
 /// @brief A binary tree of boxes that a ray walks through from near to far.
 ///
-/// Built top down by the surface area heuristic in 16 bins (Wald, "On fast construction of SAH-based
-/// bounding volume hierarchies", 2007); each leaf is one box. Boxes are kept as floats, rounded
-/// outwards.
+/// Built top down by the surface area heuristic in 16 bins (Wald, "On fast construction of
+/// SAH-based bounding volume hierarchies", 2007); each leaf is one box. Boxes are kept as floats,
+/// rounded outwards.
 #pragma once
 
 #include "Types.h"
@@ -49,9 +49,10 @@ public:
   template <typename Visit>
   void Walk(const BoxRay& ray, double tMin, double& tMax, const Visit& visit) const;
 
-  /// Calls `visit(box)` for every box that `meets(const Box3&)` says yes to, in no useful order.
+  /// Calls `visit(box, bounds)` for every box, its bounds widened as they are kept, to which and to
+  /// whose parents `meets(const Box3& bounds)` says yes, in no useful order.
   template <typename Meets, typename Visit>
-  void Search(const Meets& meets, const Visit& visit) const;
+  void Search(const Meets& meets, Visit&& visit) const;
 
   /// Bytes that the tree occupies.
   std::size_t MemoryUse() const { return this->Nodes.capacity() * sizeof(Node); }
@@ -133,7 +134,7 @@ void BoxTree::Walk(const BoxRay& ray, double tMin, double& tMax, const Visit& vi
 }
 
 template <typename Meets, typename Visit>
-void BoxTree::Search(const Meets& meets, const Visit& visit) const
+void BoxTree::Search(const Meets& meets, Visit&& visit) const
 {
   std::vector<std::int32_t> stack;
   if (!this->IsEmpty())
@@ -158,7 +159,7 @@ void BoxTree::Search(const Meets& meets, const Visit& visit) const
       }
       else
       {
-        visit(~node.Child[c]);
+        visit(~node.Child[c], box);
       }
     }
   }

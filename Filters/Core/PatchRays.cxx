@@ -2,6 +2,7 @@
 #include "PatchRays.h"
 
 #include "Model.h"
+#include "PatchCutter.h"
 #include "PieceSearch.h"
 
 #include <algorithm>
@@ -13,15 +14,6 @@ namespace nurbs
 namespace
 {
 
-/// A cell's derivatives vary by at most this part, unless it is at its smallest: half of the cells
-/// cost a tenth of the speed here.
-constexpr double FlatEnough = 0.5;
-/// The contraction factor under which a cell counts as having one root at most.
-constexpr double Contracting = 0.5;
-/// A patch is halved this often at most.
-constexpr int MaxHalvings = 10;
-/// Cells are not made smaller than this part of the model.
-constexpr double SmallestCell = 1e-4;
 /// How far outside of its piece a root may lie, in parameters of the patch: more than rounding
 /// moves it, so that none is lost between two pieces.
 constexpr double Overlap = 1e-11;
@@ -53,8 +45,9 @@ inline void Bernstein(int degree, double t, double* b)
   }
 }
 
-/// Point and derivatives by de Casteljau's algorithm, its last step made for both directions at once:
-/// the four points before it give them all (Farin, Curves and Surfaces for CAGD, section 14.4).
+/// Point and derivatives by de Casteljau's algorithm, its last step made for both directions at
+/// once: the four points before it give them all (Farin, Curves and Surfaces for CAGD, section
+/// 14.4).
 template <int P, int Q>
 void EvaluatePatch(const Vec4* net, int p, int q, double u, double v, PatchPoint& out)
 {
@@ -124,139 +117,8 @@ RayPlanes::RayPlanes(const Vec3& origin, const Vec3& direction)
   }
 }
 
-/// Cuts the patches of one surface into cells.
-class PatchCutter
-{
-public:
-  explicit PatchCutter(double size)
-    : Size(size)
-  {}
-
-  void Add(const BezierPatch& given, std::int32_t face)
-  {
-    BezierPatch patch = given;
-    double weight = 0.0;
-    for (const Vec4& h : patch.Points)
-    {
-      weight = std::max(weight, h[3]);
-    }
-    for (Vec4& h : patch.Points)
-    {
-      h /= weight;
-    }
-    this->Patches.push_back({ { patch.Degree[0], patch.Degree[1] }, face,
-      static_cast<std::int64_t>(this->Points.size()), { patch.U, patch.V } });
-    this->Points.insert(this->Points.end(), patch.Points.begin(), patch.Points.end());
-    patch.U = Interval();
-    patch.V = Interval();
-    this->Cut(patch, 0);
-  }
-
-  std::vector<PatchRays::Patch> Patches;
-  std::vector<Vec4> Points;
-  std::vector<PatchRays::Cell> Cells;
-  std::vector<Box3> Boxes;
-
-private:
-  /// Makes `piece` (its U and V are parameters of the patch) one cell, or two halves of cells.
-  void Cut(const BezierPatch& piece, int depth)
-  {
-    PatchRays::Cell cell;
-    int dir;
-    const double turn = this->Flatten(piece, cell, dir);
-    if (turn <= FlatEnough || depth == MaxHalvings || cell.Radius < SmallestCell * this->Size)
-    {
-      cell.Patch = static_cast<std::int32_t>(this->Patches.size()) - 1;
-      Box3 box;
-      for (const Vec4& h : piece.Points)
-      {
-        box.extend(h.head<3>() / h[3]);
-      }
-      this->Cells.push_back(cell);
-      this->Boxes.push_back(box);
-      return;
-    }
-    BezierPatch low, high;
-    SplitBezierPatch(piece, dir, 0.5, low, high);
-    this->Cut(low, depth + 1);
-    this->Cut(high, depth + 1);
-  }
-
-  /// Fills in the cell of a piece. Returns how much its derivatives vary, relative to their length and
-  /// the angle between them, and in `dir` in which direction they do so more.
-  double Flatten(const BezierPatch& piece, PatchRays::Cell& cell, int& dir) const
-  {
-    const int count[2] = { piece.Degree[0] + 1, piece.Degree[1] + 1 };
-    PatchPoint middle;
-    EvaluatePatch(piece.Points.data(), count[0] - 1, count[1] - 1, 0.5, 0.5, middle);
-    const double weight = middle.H[3];
-    cell.Middle = middle.H.head<3>() / weight;
-    cell.Weight = static_cast<float>(weight);
-    double radius = 0.0;
-    for (const Vec4& h : piece.Points)
-    {
-      radius = std::max(radius, (h.head<3>() / h[3] - cell.Middle).norm());
-    }
-    // Homogeneous points around the middle; where there is a root, its plane's offset is at most the
-    // radius, by which changes of the weight count.
-    const auto local = [&](const Vec4& h) -> Vec3 {
-      return (h.head<3>() - h[3] * cell.Middle) / weight;
-    };
-    double variation[2] = { 0.0, 0.0 };
-    double bend[2][2] = {}; // largest second differences: derivative; direction that it changes in
-    for (int d = 0; d < 2; ++d)
-    {
-      cell.D[d] = local(middle.D[d]);
-      const int n = piece.Degree[d];
-      const int step[2] = { 1, count[0] };
-      const auto derivative = [&](int i, int j) -> Vec4 {
-        const Vec4* h = piece.Points.data() + i + j * count[0];
-        return n * (h[step[d]] - h[0]);
-      };
-      for (int j = 0; j < count[1] - (d == 1 ? 1 : 0); ++j)
-      {
-        for (int i = 0; i < count[0] - (d == 0 ? 1 : 0); ++i)
-        {
-          const Vec4 here = derivative(i, j);
-          const double w = std::abs(here[3]) / weight;
-          variation[d] = std::max(variation[d], (local(here) - cell.D[d]).norm() + radius * w);
-          if (i > 0)
-          {
-            bend[d][0] = std::max(bend[d][0], local(here - derivative(i - 1, j)).norm());
-          }
-          if (j > 0)
-          {
-            bend[d][1] = std::max(bend[d][1], local(here - derivative(i, j - 1)).norm());
-          }
-        }
-      }
-      bend[d][d] *= n - 1;
-      bend[d][1 - d] *= piece.Degree[1 - d];
-    }
-    const double length[2] = { cell.D[0].norm(), cell.D[1].norm() };
-    const double tiny = 1e-14 * this->Size;
-    const double sine = cell.D[0].cross(cell.D[1]).norm() /
-      std::max(length[0] * length[1], std::numeric_limits<double>::min());
-    const auto relative = [&](double a, double b) {
-      return (a / std::max(length[0], tiny) + b / std::max(length[1], tiny)) / std::max(sine, 1e-3);
-    };
-    dir = relative(bend[0][0], bend[1][0]) >= relative(bend[0][1], bend[1][1]) ? 0 : 1;
-    const float infinity = std::numeric_limits<float>::infinity();
-    for (int d = 0; d < 2; ++d)
-    {
-      cell.Variation[d] = std::nextafter(static_cast<float>(variation[d]), infinity);
-      const Interval& part = d == 0 ? piece.U : piece.V;
-      cell.Low[d] = static_cast<float>(part.Min);
-      cell.High[d] = static_cast<float>(part.Max);
-    }
-    cell.Radius = std::nextafter(static_cast<float>(radius), infinity);
-    return relative(variation[0], variation[1]);
-  }
-
-  double Size;
-};
-
-void PatchRays::Build(const Model& model, const ParallelFor& parallel)
+void PatchRays::Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+  const ParallelFor& parallel)
 {
   this->Box.setEmpty();
   for (const Face& face : model.Faces)
@@ -280,9 +142,10 @@ void PatchRays::Build(const Model& model, const ParallelFor& parallel)
     {
       if (model.Faces[i].Geometry.Size() > 0)
       {
+        const CoverTest test(model, model.Faces[i], trims.Face(i));
         for (const BezierPatch& patch : ToBezier(model.Faces[i].Geometry))
         {
-          cut[i].Add(patch, static_cast<std::int32_t>(i));
+          cut[i].Add(patch, static_cast<std::int32_t>(i), test, reach[i]);
         }
       }
     }
@@ -307,8 +170,13 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
   this->Points.reserve(points);
   this->Cells.reserve(cells);
   this->CellBoxes.reserve(cells);
+  this->Box.setEmpty();
   for (PatchCutter& surface : cut)
   {
+    for (const Box3& box : surface.Boxes)
+    {
+      this->Box.extend(box);
+    }
     const std::int32_t firstPatch = static_cast<std::int32_t>(this->Patches.size());
     const std::int64_t firstPoint = static_cast<std::int64_t>(this->Points.size());
     for (Patch patch : surface.Patches)
@@ -325,6 +193,7 @@ void PatchRays::Join(std::vector<PatchCutter>& cut)
     this->CellBoxes.insert(this->CellBoxes.end(), surface.Boxes.begin(), surface.Boxes.end());
     surface = PatchCutter(this->Size);
   }
+  this->Size = this->Box.isEmpty() ? 0.0 : this->Box.diagonal().norm();
 }
 
 std::size_t PatchRays::MemoryUse() const
@@ -345,42 +214,59 @@ void PatchRays::Intersect(
   {
     return;
   }
-  // Where the ray meets the tangent plane, by Cramer's rule without dividing.
+  // Where the ray meets the tangent plane, by Cramer's rule.
   const double a = ray.Normal[0].dot(cell.D[0]);
   const double b = ray.Normal[0].dot(cell.D[1]);
   const double c = ray.Normal[1].dot(cell.D[0]);
   const double d = ray.Normal[1].dot(cell.D[1]);
-  const double det = std::abs(a * d - b * c);
+  const double det = a * d - b * c;
   const double rows[2] = { std::sqrt(b * b + d * d), std::sqrt(a * a + c * c) };
-  const double steps[2] = { d * x - b * y, a * y - c * x };
-  const double variation = double(cell.Variation[0]) + cell.Variation[1];
-  const double reach = 0.5 * variation + this->Rounding;
-  for (int k = 0; k < 2; ++k)
-  {
-    if (std::abs(steps[k]) > (0.5 + 1e-9) * det + rows[k] * reach)
-    {
-      return;
-    }
-  }
-  if (rows[0] * cell.Variation[0] + rows[1] * cell.Variation[1] >= Contracting * det ||
-    det <= 1e-13 * rows[0] * rows[1])
+  if (std::abs(det) <= 1e-13 * rows[0] * rows[1])
   {
     this->Search(cell, ray, hits);
     return;
   }
+  const double inverse = 1.0 / det;
+  const Vec2 step(inverse * (d * x - b * y), inverse * (a * y - c * x));
+  // The same for the normal: how far along the surface a point moves that is off the tangent plane.
+  const Vec3 normal = cell.D[0].cross(cell.D[1]);
+  const double nx = ray.Normal[0].dot(normal);
+  const double ny = ray.Normal[1].dot(normal);
+  const Vec2 slope(inverse * (d * nx - b * ny), inverse * (a * ny - c * nx));
+  // Bounds on 1 - Y Dg over the cell: Y Dg in the tangent frame. Krawczyk's test.
+  Eigen::Matrix2d bound;
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int e = 0; e < 2; ++e)
+    {
+      bound(k, e) = double(cell.Along[k][e]) + std::abs(slope[k]) * cell.Across[e];
+    }
+    const double reach = 0.5 * (bound(k, 0) + bound(k, 1));
+    if (std::abs(step[k]) > 0.5 + 1e-9 + reach + rows[k] * std::abs(inverse) * this->Rounding)
+    {
+      return;
+    }
+  }
   RootPiece root;
+  root.Factor = ContractionFactor(bound, root.Unit);
+  if (root.Factor >= MaxFactor)
+  {
+    this->Search(cell, ray, hits);
+    return;
+  }
   root.Chord << d, -b, -c, a;
-  root.Chord /= a * d - b * c;
+  root.Chord *= inverse;
+  root.IsCartesian = true;
   for (int k = 0; k < 2; ++k)
   {
     root.Piece.Low[k] = cell.Low[k];
     root.Piece.High[k] = cell.High[k];
     const double length = double(cell.High[k]) - cell.Low[k];
     root.Chord.row(k) *= length;
-    root.Start[k] = 0.5 * (double(cell.High[k]) + cell.Low[k]) - root.Chord.row(k).dot(Vec2(x, y));
+    root.Unit[k] *= length;
+    root.Start[k] = cell.Low[k] + (0.5 - step[k]) * length;
   }
-  root.Chord /= cell.Weight;
-  this->Polish(cell.Patch, ray, root, hits);
+  this->Polish(cell, ray, root, hits);
 }
 
 /// The cells that the linear test can't decide: poles, and what is seen at a grazing angle.
@@ -399,11 +285,11 @@ void PatchRays::Search(const Cell& cell, const RayPlanes& ray, std::vector<Patch
   {
     if (root.Isolated)
     {
-      this->Polish(cell.Patch, ray, root, hits);
+      this->Polish(cell, ray, root, hits);
     }
     else
     {
-      this->Touch(cell.Patch, ray, root.Piece, hits);
+      this->Touch(cell, ray, root.Piece, hits);
     }
   }
 }
@@ -438,14 +324,33 @@ Vec2 Clamp(const Vec2& at, const PatchPiece& piece, const Vec2& slack)
     std::max(piece.Low[1] - slack[1], std::min(at[1], piece.High[1] + slack[1])));
 }
 
+/// True if a root in the piece would be too far from at - chord: where s - Chord g(s) contracts by
+/// the factor f, the root is within f / (1 - f) of its step.
+bool IsOutside(const RootPiece& root, const Vec2& slack, const Vec2& at, const Vec2& chord)
+{
+  const double reach = 1.01 * root.Factor / (1.0 - root.Factor) *
+    std::max(std::abs(chord[0]) / root.Unit[0], std::abs(chord[1]) / root.Unit[1]);
+  for (int k = 0; k < 2; ++k)
+  {
+    const double next = at[k] - chord[k];
+    const double off =
+      std::max(root.Piece.Low[k] - slack[k] - next, next - root.Piece.High[k] - slack[k]);
+    if (off > reach * root.Unit[k])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
-/// Newton's method within a piece that has one root at most; where it does not get on, the iteration
-/// with a constant matrix, which contracts.
-void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece& root,
-  std::vector<PatchHit>& hits) const
+/// Newton's method within a piece that has one root at most; where it does not get on, the
+/// iteration with a constant matrix, which contracts.
+void PatchRays::Polish(
+  const Cell& cell, const RayPlanes& ray, const RootPiece& root, std::vector<PatchHit>& hits) const
 {
-  constexpr int newtonSteps = 8;
+  constexpr int newtonSteps = 6;
   constexpr int maxSteps = 64;
   const Vec2 noise(
     root.Chord.row(0).norm() * this->Rounding, root.Chord.row(1).norm() * this->Rounding);
@@ -453,21 +358,29 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
   Vec2 at = Clamp(root.Start, root.Piece, slack);
   for (int step = 0; step < maxSteps; ++step)
   {
-    const PatchPoint point = this->Evaluate(patch, at);
+    const PatchPoint point = this->Evaluate(cell.Patch, at);
     Vec2 value;
     Eigen::Matrix2d derivative;
     Project(point, ray, value, derivative);
+    const Vec2 chord = root.Chord * (root.IsCartesian ? Vec2(value / point.H[3]) : value);
+    if (IsOutside(root, slack, at, chord))
+    {
+      return;
+    }
     const double det = derivative.determinant();
     const bool newton = step < newtonSteps &&
       std::abs(det) > 1e-14 * derivative.col(0).norm() * derivative.col(1).norm();
     const Vec2 move = newton ? Vec2(Vec2(derivative(1, 1) * value[0] - derivative(0, 1) * value[1],
                                       derivative(0, 0) * value[1] - derivative(1, 0) * value[0]) *
                                  (1.0 / det))
-                             : Vec2(root.Chord * value);
+                             : chord;
     const double enough = newton ? NewtonEnd : ChordEnd;
     if (std::abs(move[0]) <= enough + noise[0] && std::abs(move[1]) <= enough + noise[1])
     {
-      this->AddHit(patch, at - move, false, hits);
+      if (Clamp(at - move, root.Piece, slack) == Vec2(at - move))
+      {
+        this->AddHit(cell, at - move, false, hits);
+      }
       return;
     }
     const Vec2 last = at;
@@ -479,10 +392,10 @@ void PatchRays::Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece
   }
 }
 
-/// A piece whose control points all lie within rounding of a plane through the ray. If it is small, it
-/// holds a pole, or the ray touches the surface there: the point next to the ray by the damped
+/// A piece whose control points all lie within rounding of a plane through the ray. If it is small,
+/// it holds a pole, or the ray touches the surface there: the point next to the ray by the damped
 /// Gauss-Newton method. If it is not, the ray runs within the surface.
-void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece& piece,
+void PatchRays::Touch(const Cell& cell, const RayPlanes& ray, const PatchPiece& piece,
   std::vector<PatchHit>& hits) const
 {
   Box3 box;
@@ -490,7 +403,7 @@ void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece
   {
     const Vec2 part(0.5 * (i % 3), 0.5 * (i / 3));
     const Vec2 low(piece.Low[0], piece.Low[1]), high(piece.High[0], piece.High[1]);
-    const Vec4 h = this->Evaluate(patch, low + part.cwiseProduct(high - low)).H;
+    const Vec4 h = this->Evaluate(cell.Patch, low + part.cwiseProduct(high - low)).H;
     box.extend(h.head<3>() / h[3]);
   }
   if (box.diagonal().norm() > TouchSize * this->Size)
@@ -503,28 +416,29 @@ void PatchRays::Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece
   {
     Vec2 value;
     Eigen::Matrix2d derivative;
-    Project(this->Evaluate(patch, at), ray, value, derivative);
+    Project(this->Evaluate(cell.Patch, at), ray, value, derivative);
     Eigen::Matrix2d square = derivative.transpose() * derivative;
     square.diagonal().array() += 1e-14 * square.trace() + std::numeric_limits<double>::min();
     at = Clamp(at - square.inverse() * derivative.transpose() * value, piece, slack);
     at = at.cwiseMax(0.0).cwiseMin(1.0);
   }
-  const PatchPoint point = this->Evaluate(patch, at);
+  const PatchPoint point = this->Evaluate(cell.Patch, at);
   const Vec2 value(ray.Homogeneous[0].dot(point.H), ray.Homogeneous[1].dot(point.H));
   if (value.norm() <= 10.0 * this->Rounding * point.H[3])
   {
-    this->AddHit(patch, at, true, hits);
+    this->AddHit(cell, at, true, hits);
   }
 }
 
 void PatchRays::AddHit(
-  std::int32_t index, const Vec2& found, bool singular, std::vector<PatchHit>& hits) const
+  const Cell& cell, const Vec2& found, bool singular, std::vector<PatchHit>& hits) const
 {
-  const Patch& patch = this->Patches[index];
+  const Patch& patch = this->Patches[cell.Patch];
   const Vec2 at = found.cwiseMax(0.0).cwiseMin(1.0);
-  const PatchPoint point = this->Evaluate(index, at);
+  const PatchPoint point = this->Evaluate(cell.Patch, at);
   PatchHit hit;
-  hit.Patch = index;
+  hit.Patch = cell.Patch;
+  hit.IsInside = cell.IsWhole;
   hit.Singular = singular;
   hit.Point = point.H.head<3>() / point.H[3];
   for (int k = 0; k < 2; ++k)

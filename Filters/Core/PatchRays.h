@@ -2,13 +2,13 @@
 /// @file PatchRays.h
 /// @brief All intersections of a ray with rational Bezier patches, in double precision.
 ///
-/// A point of the surface lies on a ray if it lies on two planes through it, so that a hit is a root
-/// of g(s) = (N1 . H(s), N2 . H(s)), H the homogeneous patch and N1, N2 the planes (Kajiya 1982). g
-/// is itself a patch, of two components. Where its derivative varies little over a piece of the
-/// patch, Krawczyk's operator s - Y g(s) (Krawczyk 1969) tells that the piece has no root, or at most
-/// one, which Newton's method finds from there; elsewhere the piece is halved, and left out once its
-/// control points lie on one side of a plane through the ray (Nishita, Sederberg, Kakimoto 1990 clip
-/// there; halving costs the same for curved patches and never stalls).
+/// A point of the surface lies on a ray if it lies on two planes through it, so that a hit is a
+/// root of g(s) = (N1 . H(s), N2 . H(s)), H the homogeneous patch and N1, N2 the planes (Kajiya
+/// 1982). g is itself a patch, of two components. Where its derivative varies little over a piece
+/// of the patch, Krawczyk's operator s - Y g(s) (Krawczyk 1969) tells that the piece has no root,
+/// or at most one, which Newton's method finds from there; elsewhere the piece is halved, and left
+/// out once its control points lie on one side of a plane through the ray (Nishita, Sederberg,
+/// Kakimoto 1990 clip there; halving costs the same for curved patches and never stalls).
 ///
 /// For speed, patches are cut in advance into cells, over which the surface's derivatives turn by
 /// some ten degrees. A cell keeps its tangent plane and a bound on how much it varies, which is all
@@ -22,6 +22,7 @@ namespace nurbs
 
 class PatchCutter;
 struct Model;
+class TrimIndex;
 struct PatchPoint;
 struct RootPiece;
 
@@ -49,18 +50,21 @@ struct PatchHit
   std::int32_t Patch;
   double UV[2]; ///< The surface's parameters, in the patch's part of the domain.
   Vec3 Point;
-  Vec3 Su, Sv; ///< Derivatives with respect to UV.
-  bool
-    Singular; ///< The ray touches the surface, or meets a pole: Su, Sv and the ray are dependent.
+  Vec3 Su, Sv;   ///< Derivatives with respect to UV.
+  bool IsInside; ///< Surely not trimmed away; if false, that is not known.
+  bool Singular; ///< The ray touches the surface or meets a pole: Su, Sv and it are dependent.
 };
 
 /// The patches of the surfaces of a model. Constant once built, and safe to use from many threads.
 class PatchRays
 {
 public:
-  /// Cuts the surfaces of the model's faces; one without a control net has no patches. Surfaces are
-  /// independent of each other, the result does not depend on `parallel`. Copies what it needs.
-  void Build(const Model& model, const ParallelFor& parallel);
+  /// Cuts the surfaces of the model's faces; one without a control net has no patches. What is
+  /// trimmed away is left out, if it is farther than `reach` (a length for each face) from what is
+  /// not. Faces are independent of each other, the result does not depend on `parallel`. Copies
+  /// what it needs.
+  void Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+    const ParallelFor& parallel);
 
   std::int64_t CellCount() const { return static_cast<std::int64_t>(this->Cells.size()); }
   std::int64_t PatchCount() const { return static_cast<std::int64_t>(this->Patches.size()); }
@@ -70,15 +74,15 @@ public:
   /// Forgets them; whoever asked for them has a tree by now.
   void ReleaseBoxes() { std::vector<Box3>().swap(this->CellBoxes); }
 
-  /// The box of all control points.
+  /// The box of the cells' control points, empty if there are none.
   const Box3& Bounds() const { return this->Box; }
 
   std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
   std::int32_t FaceOfCell(std::int32_t cell) const { return this->FaceOf(this->Cells[cell].Patch); }
 
-  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border of
-  /// cells, or within rounding of it, is found by each of them. Where a ray runs within the surface
-  /// along a curve, it has no intersections.
+  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border
+  /// of cells, or within rounding of it, is found by each of them. Where a ray runs within the
+  /// surface along a curve, it has no intersections.
   void Intersect(std::int32_t cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
 
   /// Distances below this are rounding.
@@ -103,29 +107,31 @@ private:
   {
     Vec3 Middle; ///< The point in the middle of its parameters.
     Vec3 D[2];   ///< Derivatives there with respect to the cell's own parameters in [0, 1].
-    float
-      Variation[2]; ///< Bound on how much g's derivatives differ from those of the tangent plane.
-    float Weight;   ///< At Middle.
-    float Radius;   ///< Of a ball around Middle that holds the cell.
+    /// Bounds on how far the surface's derivatives (of u and v; last index) differ from D:
+    /// coordinates along D[0], D[1] (first index) and along their cross product.
+    float Along[2][2];
+    float Across[2];
+    float Radius;          ///< Of a ball around Middle that holds the cell.
     float Low[2], High[2]; ///< The cell's part of the patch, exact (dyadic).
     std::int32_t Patch;
+    bool IsWhole; ///< Nothing of it is trimmed away.
   };
 
   void Join(std::vector<PatchCutter>& cut);
   PatchPoint Evaluate(std::int32_t patch, const Vec2& at) const;
   void Search(const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
-  void Polish(std::int32_t patch, const RayPlanes& ray, const RootPiece& root,
+  void Polish(const Cell& cell, const RayPlanes& ray, const RootPiece& root,
     std::vector<PatchHit>& hits) const;
-  void Touch(std::int32_t patch, const RayPlanes& ray, const PatchPiece& piece,
+  void Touch(const Cell& cell, const RayPlanes& ray, const PatchPiece& piece,
     std::vector<PatchHit>& hits) const;
-  void AddHit(std::int32_t patch, const Vec2& at, bool singular, std::vector<PatchHit>& hits) const;
+  void AddHit(const Cell& cell, const Vec2& at, bool singular, std::vector<PatchHit>& hits) const;
 
   std::vector<Patch> Patches;
   std::vector<Vec4> Points; ///< Homogeneous; the largest weight of a patch is 1.
   std::vector<Cell> Cells;
   std::vector<Box3> CellBoxes;
   Box3 Box;
-  double Size = 0.0;     ///< Diagonal of Box.
+  double Size = 0.0;     ///< Diagonal of Box; while cells are made, of all control points.
   double Rounding = 0.0; ///< What evaluating a point may err by.
 };
 

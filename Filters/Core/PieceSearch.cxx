@@ -14,9 +14,6 @@ namespace
 constexpr double SmallestPiece = 1e-13;
 /// After this many pieces the roots are taken to lie on a curve.
 constexpr int MaxPieces = 4000;
-/// The contraction under which there is at most one root.
-constexpr double Contracting = 0.5;
-
 /// The values C(n, i) / 2^n: the Bernstein polynomials of degree n at 1/2.
 struct MiddleWeights
 {
@@ -38,6 +35,19 @@ struct MiddleWeights
 constexpr MiddleWeights AtMiddle;
 
 } // namespace
+
+double ContractionFactor(const Eigen::Matrix2d& bound, Vec2& unit)
+{
+  // No entry is quite zero, so that the vector has none.
+  const double a = bound(0, 0);
+  const double b = bound(0, 1) + 1e-6;
+  const double c = bound(1, 0) + 1e-6;
+  const double d = bound(1, 1);
+  const double half = 0.5 * (a - d);
+  const double root = std::sqrt(half * half + b * c);
+  unit = half > 0.0 ? Vec2(half + root, c) : Vec2(b, root - half);
+  return 0.5 * (a + d) + root;
+}
 
 PieceSearch::PieceSearch(const Vec4* net, int p, int q, const Vec4 (&planes)[2], double noise)
   : Degree{ p, q }
@@ -249,7 +259,6 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
     }
   }
   const Vec2 root = Vec2(0.5, 0.5) - inverse * value;
-  bool isolated = true;
   for (int d = 0; d < 2; ++d)
   {
     const double reach = 0.5 * rest.row(d).sum();
@@ -258,18 +267,20 @@ PieceSearch::Verdict PieceSearch::Contract(const double* net, const PatchPiece& 
     {
       return Verdict::Empty;
     }
-    isolated = isolated && 2.0 * reach < Contracting;
   }
-  if (!isolated)
+  Vec2 unit;
+  const double factor = ContractionFactor(rest, unit);
+  if (factor >= MaxFactor)
   {
     return Verdict::Halve;
   }
-  RootPiece found{ piece, true, root, inverse };
+  RootPiece found{ piece, true, root, inverse, factor, unit, false };
   for (int d = 0; d < 2; ++d)
   {
     const double length = piece.High[d] - piece.Low[d];
     found.Start[d] = piece.Low[d] + length * root[d];
     found.Chord.row(d) *= length;
+    found.Unit[d] *= length;
   }
   this->Found.push_back(found);
   return Verdict::Done;

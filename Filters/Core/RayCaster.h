@@ -5,11 +5,12 @@
 /// Surfaces are intersected as they are, without a mesh: PatchRays.h says how, BoxTree.h what finds
 /// the patches, TrimIndex.h decides what is trimmed away.
 ///
-/// Precision: hits lie on the surface to rounding, and on the ray to about 1e-13 of the model's size
-/// (unless the ray grazes the surface: then to rounding across the ray, and to the square root of that
-/// along it). No hit is lost between patches of a face. Between faces whose edges agree within a
-/// tolerance only (Edge::Tolerance), a point that is outside of its face by up to twice that still
-/// counts, so that no ray slips through.
+/// Precision: hits lie on the surface to rounding, and on the ray to about 1e-13 of the model's
+/// size (unless the ray grazes the surface: then to rounding across the ray, and to the square root
+/// of that along it). No hit is lost between patches of a face. Between faces whose edges agree
+/// within a tolerance only (Edge::Tolerance), a point that is outside of its face by up to twice
+/// that counts where it lies beside two faces, or where else hits would not enter and leave by
+/// turns: so no ray slips through, and none is stopped that passes.
 #pragma once
 
 #include "BoxTree.h"
@@ -47,31 +48,37 @@ struct RayHit
 class RayCaster
 {
 public:
-  /// Builds the search structure, in time O(n log n) of the number of patches. The model must outlive
-  /// the caster and not change; faces without a control net are left out. Throws what TrimIndex throws.
+  /// Builds the search structure, in time O(n log n) of the number of patches. The model must
+  /// outlive the caster and not change; faces without a control net are left out. Throws what
+  /// TrimIndex throws.
   explicit RayCaster(const Model& model, const ParallelFor& parallel = SerialFor);
 
-  /// The hit with the smallest t in the ray's range. Returns false if there is none, and leaves `hit`.
-  /// Throws Error if the direction is zero, or a number of the ray is NaN or an infinite vector.
+  /// The hit with the smallest t in the ray's range. Returns false if there is none, and leaves
+  /// `hit`. Throws Error if the direction is zero, or a number of the ray is NaN or an infinite
+  /// vector.
   bool Nearest(const Ray& ray, RayHit& hit) const;
 
   /// True if there is a hit in the ray's range; the quickest question.
   bool IsBlocked(const Ray& ray) const;
 
-  /// Replaces `hits` by all hits in the ray's range, by increasing t. A point where faces or a face's
-  /// own borders meet gives one hit a direction of crossing (one hit in all if the ray goes through,
-  /// two if it enters and leaves there), and so do surfaces that lie on each other within the edges'
-  /// tolerance and face the same way. So hits through a closed model enter and leave by turns, save
-  /// at a vertex that the ray meets exactly. A ray that runs within a surface along a curve has no hit
-  /// with that face, but may have with its neighbours. Throws as Nearest does.
+  /// Replaces `hits` by all hits in the ray's range, by increasing t. A point where faces or a
+  /// face's own borders meet gives one hit a direction of crossing (one hit in all if the ray goes
+  /// through, two if it enters and leaves there), and so do surfaces that lie on each other within
+  /// the edges' tolerance and face the same way. So hits through a closed model enter and leave by
+  /// turns, save at a vertex that the ray meets exactly. A ray that runs within a surface along a
+  /// curve has no hit with that face, but may have with its neighbours. Throws as Nearest does.
   void All(const Ray& ray, std::vector<RayHit>& hits) const;
 
-  /// The box of the model's control points, empty if there are none.
+  /// A box around what is left of the surfaces by trimming, a bit larger; empty if there is
+  /// nothing.
   const Box3& Bounds() const { return this->Surfaces.Bounds(); }
 
   /// The tree over the parts of surfaces, and the face of each: for searches by box.
   const BoxTree& GetTree() const { return this->Tree; }
   std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
+
+  /// The model given.
+  const Model& GetModel() const { return *this->Source; }
 
   /// Trimming, as the queries see it.
   const TrimIndex& GetTrims() const { return this->Trims; }
@@ -83,19 +90,30 @@ public:
 
 private:
   struct Cast;
+  struct Candidate;
+  enum class Place
+  {
+    Inside,
+    Beside, ///< Outside of the face, but within its edges' tolerance.
+    Outside
+  };
 
-  bool IsInside(const PatchHit& hit) const;
+  Place Locate(const PatchHit& hit) const;
   void Finish(const Cast& cast, const PatchHit& hit, RayHit& out) const;
+  double Noise(const RayHit& a, const RayHit& b, const Vec3& direction) const;
   double Spread(const RayHit& a, const RayHit& b, const Vec3& direction) const;
-  void Merge(std::vector<RayHit>& hits, const Vec3& direction) const;
   template <typename Found>
   void Walk(const Cast& cast, double& tMax, const Found& found) const;
+  bool Gather(const Cast& cast, std::vector<Candidate>& found) const;
+  void Merge(std::vector<Candidate>& found, const Vec3& direction) const;
+  static void KeepNeeded(std::vector<Candidate>& found);
 
   const Model* Source;
   TrimIndex Trims;
   PatchRays Surfaces;
   BoxTree Tree;
   std::vector<double> Tolerance; ///< A face's largest of its edges.
+  std::vector<double> Reach;     ///< How far outside a face a hit may count.
 };
 
 } // namespace nurbs

@@ -191,12 +191,27 @@ void FaceTrim::WriteTexels(std::int32_t pointStart, float* points, std::int32_t*
 TrimIndex::TrimIndex(const Model& model, const ParallelFor& parallel)
   : Faces(model.Faces.size())
 {
+  std::vector<std::string> errors(model.Faces.size()); // kept: threads may not throw
   parallel(0, this->FaceCount(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t face = begin; face < end; ++face)
     {
-      this->Rebuild(model, face);
+      try
+      {
+        this->Rebuild(model, face);
+      }
+      catch (const Error& error)
+      {
+        errors[static_cast<std::size_t>(face)] = error.what();
+      }
     }
   });
+  for (const std::string& error : errors)
+  {
+    if (!error.empty())
+    {
+      throw Error(error);
+    }
+  }
 }
 
 void TrimIndex::Rebuild(const Model& model, std::int64_t face)

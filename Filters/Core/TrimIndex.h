@@ -6,15 +6,14 @@
 /// cut into pieces monotone in u and v (TrimPieces.h), found through a search structure, and a point
 /// is decided by a piece's box, else by bisection of the piece. The structure is ours: a k-d tree
 /// whose cells know what lies to their right, so that a query looks at the pieces of one cell only
-/// (TrimTree.h).
-/// It becomes two texture buffers that nurbsTrim.glsl reads; FaceTrim::Inside takes the same steps in
-/// double precision.
+/// (TrimTree.h). It becomes two texture buffers that nurbsTrim.glsl reads; FaceTrim::Inside takes the
+/// same steps in double precision.
 ///
 /// What counts as inside: the even-odd rule over all loops of the face. For loops that do not cross,
 /// whichever way they run, that is what the tessellator triangulates (LoopRepair.h turns loops by
 /// their depth of nesting). Where loops cross, the two differ in what is wound around twice or only
 /// by a hole: the tessellator keeps what a loop winds around twice, unites loops that overlap and
-/// ignores the part of a hole outside of other loops; here these parts are outside, outside and inside.
+/// ignores the part of a hole beyond the other loops; here these parts are outside, outside and inside.
 ///
 /// The domain's border belongs to the face where a loop runs along it, and points beyond it count as
 /// the nearest ones of the domain: a rasteriser's rounding trims nothing there. Otherwise, of a
@@ -48,7 +47,7 @@ public:
   /// The same; `visited` receives the number of pieces that were looked at.
   bool Inside(double u, double v, int& visited) const;
 
-  /// True if all of the domain is inside: no texels are needed, FlatTrims gives no start.
+  /// True if all of the domain is inside: no texels are needed, TrimTexels gives no start.
   bool IsWhole() const { return this->Root == TrimTree::AllInside; }
 
   /// Number of monotone pieces that the structure refers to.
@@ -82,7 +81,7 @@ public:
   TrimIndex() = default;
 
   /// Faces are independent of each other; the result does not depend on `parallel`. Throws what
-  /// FaceTrim throws.
+  /// FaceTrim throws for the first face that does.
   explicit TrimIndex(const Model& model, const ParallelFor& parallel = SerialFor);
 
   /// True if (u, v), in the face's parameters, is inside the face.

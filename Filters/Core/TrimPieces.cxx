@@ -310,7 +310,7 @@ private:
     }
   }
 
-  void Add(const Vec2& end, Points3 curve)
+  void Add(Vec2 end, Points3 curve)
   {
     this->Parts.push_back({ this->End, std::move(curve) });
     this->End = end;

@@ -35,7 +35,7 @@ TrimTree::TrimTree(TrimPieces pieces)
     all.References.push_back(static_cast<std::int32_t>(k) << FlagBits);
   }
   const Box2 domain(Vec2(0.0, 0.0), Vec2(1.0, 1.0));
-  const auto budget = 8 * static_cast<std::int64_t>(all.References.size()) + 16;
+  const auto budget = 16 * static_cast<std::int64_t>(all.References.size()) + 16;
   this->Root = this->Build(domain, this->Restrict(all, domain), budget, 0);
   this->DropUnused();
 }
@@ -427,7 +427,7 @@ void TrimTree::DropUnused()
         TrimPiece piece = this->Cut.Pieces[old];
         const auto inner = this->Cut.Inner.begin() + piece.FirstInner;
         piece.FirstInner = static_cast<std::int32_t>(kept.Inner.size());
-        kept.Inner.insert(kept.Inner.end(), inner, inner + piece.Degree - 1);
+        kept.Inner.insert(kept.Inner.end(), inner, inner + (piece.Degree - 1));
         kept.Pieces.push_back(piece);
       }
       reference = (number[old] << FlagBits) | (reference & (Below | Above));

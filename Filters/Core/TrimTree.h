@@ -49,7 +49,7 @@ public:
   }
   static constexpr std::size_t LeafHeader = 2;
 
-  /// Builds the tree over [0, 1] x [0, 1]. At most 8 n + 16 references for n pieces.
+  /// Builds the tree over [0, 1] x [0, 1]. At most 16 n + 16 references for n pieces.
   explicit TrimTree(TrimPieces pieces);
 
   std::int32_t Root = AllOutside;

@@ -499,7 +499,7 @@ bool FaceLoops::CheckLoops()
     outer += area > 0.0;
     largest = std::abs(area) > std::abs(largest) ? area : largest;
   }
-  if (crossings.empty() && outer == 1 && largest > 0.0)
+  if (crossings.empty() && outer == 1 && largest > 0.0 && (flat.size() == 1 || LoopsRunRight(flat)))
   {
     return true;
   }

@@ -31,8 +31,7 @@ std::size_t TexelSize(vtkNURBSBufferTexture::Format format)
 
 } // namespace
 
-bool vtkNURBSBufferTexture::Upload(
-  vtkOpenGLRenderWindow* window, const void* data, std::size_t bytes)
+bool vtkNURBSBufferTexture::Upload(const void* data, std::size_t bytes)
 {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
@@ -53,10 +52,12 @@ bool vtkNURBSBufferTexture::Upload(
     this->Capacity = bytes ? bytes : TexelSize(this->TexelFormat);
     glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(this->Capacity), bytes ? data : nullptr,
       GL_DYNAMIC_DRAW);
-    window->GetState()->vtkglActiveTexture(GL_TEXTURE0);
+    // Any unit will do; the one in use may hold the texture of somebody else.
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &bound);
     glBindTexture(GL_TEXTURE_BUFFER, this->Texture);
     glTexBuffer(GL_TEXTURE_BUFFER, InternalFormat(this->TexelFormat), this->Buffer);
-    glBindTexture(GL_TEXTURE_BUFFER, 0);
+    glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(bound));
   }
   else if (bytes)
   {

@@ -32,7 +32,7 @@ public:
   vtkNURBSBufferTexture& operator=(const vtkNURBSBufferTexture&) = delete;
 
   /// Replaces the content. False if the device can't hold so many texels.
-  bool Upload(vtkOpenGLRenderWindow* window, const void* data, std::size_t bytes);
+  bool Upload(const void* data, std::size_t bytes);
   /// Replaces a part of the content.
   void Replace(std::size_t offset, const void* data, std::size_t bytes);
 

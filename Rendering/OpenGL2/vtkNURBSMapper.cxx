@@ -4,6 +4,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -15,9 +16,11 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNURBSDrawnModel.h"
 #include "vtkNURBSFaceLooks.h"
+#include "vtkNURBSFrameRate.h"
 #include "vtkNURBSGridIndices.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSTessellatedDrawing.h"
 #include "vtkNURBSTileTextures.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
@@ -32,6 +35,7 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
+#include "vtkTimerLog.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWeakPointer.h"
@@ -39,6 +43,7 @@
 
 #include "nurbsExact.h"
 #include "nurbsFragment.h"
+#include "nurbsLook.h"
 #include "nurbsTile.h"
 #include "nurbsTrim.h"
 #include "nurbsVertex.h"
@@ -50,6 +55,13 @@ vtkStandardNewMacro(vtkNURBSMapper);
 
 namespace
 {
+
+// The shape of a tile that is drawn by some levels coarser.
+int Coarser(int shape, int levels)
+{
+  constexpr int Row = nurbs::Tile::MaxLog + 1;
+  return std::max(shape % Row - levels, 0) + Row * std::max(shape / Row - levels, 0);
+}
 
 // The largest tolerance of the edges around a face.
 double ToleranceOf(const nurbs::Model& model, const nurbs::Face& face)
@@ -83,6 +95,10 @@ struct vtkNURBSMapper::Internals
   vtkNURBSBufferTexture TrimRecords{ vtkNURBSBufferTexture::INTEGER4 };
   vtkNURBSBufferTexture LookTexture{ vtkNURBSBufferTexture::COLOR };
   vtkNURBSBufferTexture FaceIds{ vtkNURBSBufferTexture::INTEGER4 };
+  vtkNURBSBufferTexture LookColors{ vtkNURBSBufferTexture::COLOR };
+  vtkNURBSTessellatedDrawing Tessellated;
+  vtkNURBSFrameRate FrameRate;
+  int Samples = 0; ///< Of a pixel, if fragments choose among them; else 0.
   vtkNURBSFaceLooks Looks;
   bool LooksAreSent = false;
 
@@ -130,6 +146,20 @@ void vtkNURBSMapper::SetCompositeDataDisplayAttributes(
   }
 }
 
+void vtkNURBSMapper::SetLookTable(vtkScalarsToColors* table)
+{
+  if (this->LookTable != table)
+  {
+    this->LookTable = table;
+    this->Modified();
+  }
+}
+
+vtkScalarsToColors* vtkNURBSMapper::GetLookTable()
+{
+  return this->LookTable;
+}
+
 vtkCompositeDataDisplayAttributes* vtkNURBSMapper::GetCompositeDataDisplayAttributes()
 {
   return this->Attributes;
@@ -151,6 +181,11 @@ vtkMTimeType vtkNURBSMapper::GetMTime()
 {
   return std::max(
     this->Superclass::GetMTime(), this->Attributes ? this->Attributes->GetMTime() : 0);
+}
+
+double vtkNURBSMapper::GetCoarserLevels()
+{
+  return this->Content->FrameRate.GetCoarserLevels();
 }
 
 vtkIdType vtkNURBSMapper::GetNumberOfBytesSent()
@@ -218,7 +253,7 @@ void vtkNURBSMapper::ComputeBounds()
   }
 }
 
-// Sends what the device does not have yet. False, after an error was told, if it can't take it.
+// Sends what the device does not have yet. False, after a warning that tells why, if it can't take it.
 bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
 {
   Internals& c = *this->Content;
@@ -250,13 +285,13 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
       }
     }
     const nurbs::TrimTexels& trims = c.Model.GetTrims();
-    if (!c.Textures.SetTable(window, table, infos))
+    if (!c.Textures.SetTable(table, infos))
     {
       error = c.Textures.GetError();
     }
-    else if (!c.TrimPoints.Upload(window, trims.Points.data(), 4 * trims.Points.size()) ||
-      !c.TrimRecords.Upload(window, trims.Records.data(), 4 * trims.Records.size()) ||
-      !c.FaceIds.Upload(window, ids.data(), 4 * ids.size()))
+    else if (!c.TrimPoints.Upload(trims.Points.data(), 4 * trims.Points.size()) ||
+      !c.TrimRecords.Upload(trims.Records.data(), 4 * trims.Records.size()) ||
+      !c.FaceIds.Upload(ids.data(), 4 * ids.size()))
     {
       error = "the device can't hold this model's trimming curves";
     }
@@ -265,7 +300,7 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
   {
     if (c.LastError != error)
     {
-      vtkErrorMacro("The model can't be drawn: " << error);
+      vtkWarningMacro("The model is drawn by the CPU's tessellator: " << error << ".");
       c.LastError = error;
     }
     return false;
@@ -296,8 +331,16 @@ void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
     this->GetInputAlgorithm()->Update();
   }
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
-  if (!this->UpdateModel() || !this->UpdateTextures(renderer))
+  if (!this->UpdateModel())
   {
+    return;
+  }
+  this->DrawsTessellation = this->UseTessellation || !this->UpdateTextures(renderer);
+  if (this->DrawsTessellation)
+  {
+    this->Content->Tessellated.Render(this, this->GetInputDataObject(0, 0), renderer, actor);
+    this->NumberOfTriangles = this->Content->Tessellated.GetNumberOfTriangles();
+    this->AchievedPixelError = this->PixelError;
     return;
   }
   this->UpdateCameraShiftScale(renderer, actor);
@@ -340,7 +383,7 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   if (c.Looks.Update(this, c.Model, this->Attributes) || !c.LooksAreSent)
   {
     c.LooksAreSent = true;
-    c.LookTexture.Upload(window, c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
+    c.LookTexture.Upload(c.Looks.GetBytes().data(), c.Looks.GetBytes().size());
     c.TilesAreReady = false; // blocks may have been hidden or shown
   }
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -427,20 +470,21 @@ void vtkNURBSMapper::ReplaceShaderValues(
   const auto substitute = [](std::string& source, const char* from, const std::string& to)
   { vtkShaderProgram::Substitute(source, from, to); };
   const bool exact = this->DrawsExactly(actor);
-  std::string defines = "#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) + "\n";
-  if (exact)
+  const std::string defines = this->GetDefines(actor);
+  std::string functions = defines + nurbsTile + nurbsTrim + (exact ? nurbsExact : "") + nurbsFragment;
+  substitute(functions, "//NURBS::Look::Dec", exact ? nurbsLook : "");
+  substitute(fragment, "//VTK::PositionVC::Dec", functions + "//VTK::PositionVC::Dec");
+  if (this->Content->Samples > 0)
   {
-    defines += "#define NURBS_EXACT\n#define NURBS_MAX_DEGREE " +
-      std::to_string(this->Content->Model.GetMaxDegree()) + "\n";
+    substitute(fragment, "//VTK::System::Dec",
+      "//VTK::System::Dec\n#extension GL_ARB_sample_shading : require\n");
   }
-  substitute(fragment, "//VTK::PositionVC::Dec",
-    defines + nurbsTile + (exact ? nurbsExact : "") + nurbsTrim + nurbsFragment +
-      "//VTK::PositionVC::Dec");
   substitute(fragment, "//VTK::UniformFlow::Impl",
-    "  nurbsBeginFragment();\n  //VTK::UniformFlow::Impl\n");
+    std::string("  nurbsBeginFragment();\n") + (this->HasLook(actor) ? "  nurbsBeginLook();\n" : "") +
+      "  //VTK::UniformFlow::Impl\n");
   // Before depth peeling, which looks at the depth of what stays.
   substitute(fragment, "//VTK::Depth::Impl",
-    "  if (!nurbsIsInside()) { discard; }\n  //VTK::Depth::Impl\n");
+    "  if (!nurbsIsSeen) { discard; }\n  //VTK::Depth::Impl\n");
   substitute(fragment, "//VTK::Color::Impl",
     "  //VTK::Color::Impl\n"
     "  nurbsColor(ambientIntensity, diffuseIntensity, ambientColor, diffuseColor, opacity);\n");
@@ -469,16 +513,48 @@ void vtkNURBSMapper::ReplaceShaderValues(
       "vec3 normalVCVSOutput = normalize(normalMatrix * nurbsExactNormal);");
     substitute(fragment, "  nurbsBeginFragment();\n",
       "  nurbsBeginFragment();\n"
-      "  vec3 nurbsExactNormal = nurbsNormal(inverse(normalMatrix) * normalVCVSOutput);\n"
+      "  vec3 nurbsExactNormal = nurbsNormal();\n"
       "  bool nurbsFront = nurbsSeesFront(nurbsExactNormal);\n");
     shaders[vtkShader::Fragment]->SetSource(fragment);
   }
 }
 
+// Whether something is to be seen that the triangles can't show.
+bool vtkNURBSMapper::HasLook(vtkActor* actor)
+{
+  return this->Look != PLAIN || this->NumberOfIsoLines[0] > 0 || this->NumberOfIsoLines[1] > 0 ||
+    actor->GetProperty()->GetEdgeVisibility();
+}
+
 // Whether fragments look for the surface itself: not for lines and points, which are the grid's.
 bool vtkNURBSMapper::DrawsExactly(vtkActor* actor)
 {
-  return this->ExactFragments && actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
+  return actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
+    ((this->ExactFragments && this->Content->FrameRate.LooksForPoints()) || this->HasLook(actor));
+}
+
+std::string vtkNURBSMapper::GetDefines(vtkActor* actor)
+{
+  const Internals& c = *this->Content;
+  std::string defines = "#define NURBS_MAX_LOG " + std::to_string(nurbs::Tile::MaxLog) + "\n";
+  if (actor->GetProperty()->GetRepresentation() == VTK_SURFACE)
+  {
+    defines += "#define NURBS_SPREAD\n";
+  }
+  if (this->DrawsExactly(actor))
+  {
+    defines += "#define NURBS_EXACT\n#define NURBS_MAX_DEGREE " +
+      std::to_string(c.Model.GetMaxDegree()) + "\n";
+    if (c.Samples > 0)
+    {
+      defines += "#define NURBS_SAMPLES " + std::to_string(c.Samples) + "\n";
+    }
+    if (this->HasLook(actor))
+    {
+      defines += "#define NURBS_LOOK\n";
+    }
+  }
+  return defines;
 }
 
 // Passes of a hardware selection that ask what was hit: the cell, and the block of a composite.
@@ -529,21 +605,141 @@ void vtkNURBSMapper::SetMapperShaderParameters(
   const Eigen::Vector3f low = (c.Shift - high.cast<double>()).cast<float>();
   program->SetUniform3f("nurbsShiftHigh", high.data());
   program->SetUniform3f("nurbsShiftLow", low.data());
-  if (this->DrawsExactly(actor))
+  if (actor->GetProperty()->GetRepresentation() == VTK_SURFACE)
   {
-    Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
-    shift.topRightCorner<3, 1>() = c.Shift;
-    const Eigen::Matrix4d toClip = c.View.ModelToClip * shift;
-    const Eigen::Matrix4f matrix = toClip.cast<float>(); // column by column, as OpenGL wants it
-    program->SetUniformMatrix4x4("nurbsToClip", const_cast<float*>(matrix.data()));
-    const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
-    program->SetUniform3f("nurbsDepthAxis", axis.data());
-    int viewport[4];
-    window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-    const float pixels[4] = { float(viewport[0]), float(viewport[1]), float(viewport[2]),
-      float(viewport[3]) };
-    program->SetUniform4f("nurbsViewport", pixels);
-    program->SetUniformf("nurbsMargin", static_cast<float>(0.1 + this->PixelError));
+    this->SetSurfaceParameters(window, program, actor);
+  }
+  if (this->HasLook(actor))
+  {
+    this->SetLookParameters(window, program, actor);
+  }
+}
+
+void vtkNURBSMapper::SetSurfaceParameters(
+  vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor)
+{
+  const Internals& c = *this->Content;
+  Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
+  shift.topRightCorner<3, 1>() = c.Shift;
+  const Eigen::Matrix4d toClip = c.View.ModelToClip * shift;
+  Eigen::Matrix4f matrix = toClip.cast<float>(); // column by column, as OpenGL wants it
+  program->SetUniformMatrix4x4("nurbsToClip", matrix.data());
+  int viewport[4];
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  const float pixels[4] = { float(viewport[0]), float(viewport[1]), float(viewport[2]),
+    float(viewport[3]) };
+  program->SetUniform4f("nurbsViewport", pixels);
+  // Each coarser level is off by four times as much; gaps of some pixels can be filled, not more.
+  const double error = this->PixelError * std::pow(4.0, c.FrameRate.GetCoarserLevels());
+  program->SetUniformf("nurbsMargin", static_cast<float>(std::min(0.1 + error, 4.0)));
+  if (!this->DrawsExactly(actor))
+  {
+    return;
+  }
+  const Eigen::Vector3f axis = toClip.row(2).head<3>().transpose().normalized().cast<float>();
+  program->SetUniform3f("nurbsDepthAxis", axis.data());
+  if (c.Samples > 0)
+  {
+    std::vector<float> places(2 * c.Samples);
+    for (int i = 0; i < c.Samples; ++i)
+    {
+      glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), places.data() + 2 * i);
+    }
+    for (float& place : places)
+    {
+      place -= 0.5f;
+    }
+    program->SetUniformi("nurbsSampleCount", c.Samples);
+    program->SetUniform2fv(
+      "nurbsSamples", c.Samples, reinterpret_cast<const float(*)[2]>(places.data()));
+  }
+}
+
+void vtkNURBSMapper::SetLookParameters(
+  vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor)
+{
+  constexpr int Colors = 256;
+  Internals& c = *this->Content;
+  vtkScalarsToColors* table = this->LookTable;
+  vtkNew<vtkColorTransferFunction> standard;
+  if (!table)
+  {
+    const double diagonal = c.Model.GetBounds().diagonal().norm();
+    const double limit = this->Look == DRAFT_ANGLE ? 90.0
+      : this->Look == GAUSSIAN_CURVATURE           ? 100.0 / (diagonal * diagonal)
+                                                   : 10.0 / diagonal;
+    standard->SetColorSpaceToDiverging();
+    standard->AddRGBPoint(-limit, 0.230, 0.299, 0.754);
+    standard->AddRGBPoint(limit, 0.706, 0.016, 0.150);
+    table = standard;
+  }
+  const double* range = table->GetRange();
+  if (program->IsUniformUsed("nurbsLookTable"))
+  {
+    std::vector<unsigned char> colors;
+    for (int i = 0; i < Colors; ++i)
+    {
+      const unsigned char* color =
+        table->MapValue(range[0] + (range[1] - range[0]) * i / (Colors - 1));
+      colors.insert(colors.end(), color, color + 4);
+    }
+    c.LookColors.Upload(colors.data(), colors.size());
+    program->SetUniformi("nurbsLookTable", c.LookColors.Activate(window));
+  }
+  const auto set = [&](const char* name, int count, const float* values)
+  {
+    if (program->IsUniformUsed(name))
+    {
+      count == 1 ? program->SetUniformf(name, values[0])
+        : count == 2 ? program->SetUniform2f(name, values)
+                     : program->SetUniform3f(name, values);
+    }
+  };
+  const float limits[2] = { float(range[0]), float(range[1]) };
+  set("nurbsLookRange", 2, limits);
+  const Eigen::Vector3f direction =
+    Eigen::Map<const nurbs::Vec3>(this->LookDirection).normalized().cast<float>();
+  set("nurbsLookDirection", 3, direction.data());
+  const float stripes = static_cast<float>(this->NumberOfStripes);
+  set("nurbsStripes", 1, &stripes);
+  const float lines[2] = { float(this->NumberOfIsoLines[0]), float(this->NumberOfIsoLines[1]) };
+  set("nurbsLineCounts", 2, lines);
+  vtkProperty* property = actor->GetProperty();
+  const float width = property->GetLineWidth();
+  set("nurbsLineWidth", 1, &width);
+  const double* edge = property->GetEdgeColor();
+  const float color[3] = { float(edge[0]), float(edge[1]), float(edge[2]) };
+  set("nurbsLineColor", 3, color);
+  program->SetUniformi("nurbsLookKind", this->Look);
+  program->SetUniformi("nurbsShowEdges", property->GetEdgeVisibility() ? 1 : 0);
+}
+
+// How many samples a pixel has that fragments may choose from.
+void vtkNURBSMapper::UpdateSamples(vtkRenderer* renderer)
+{
+  GLint samples = 0;
+  if (!renderer->GetSelector() && GLEW_ARB_sample_shading)
+  {
+    glGetIntegerv(GL_SAMPLES, &samples);
+  }
+  samples = std::min(samples, 32); // bits of a mask
+  if (samples != this->Content->Samples)
+  {
+    this->Content->Samples = samples;
+    this->SelectionStateChanged.Modified(); // makes new shaders
+  }
+}
+
+// Decides what to leave out of this frame, by what the last one took.
+void vtkNURBSMapper::UpdateEconomy(vtkRenderer* renderer)
+{
+  Internals& c = *this->Content;
+  const double asked = renderer->GetSelector() ? 0.0 : renderer->GetRenderWindow()->GetDesiredUpdateRate();
+  const bool exact = c.FrameRate.LooksForPoints();
+  c.FrameRate.Decide(asked, this->InteractiveFrameRate, this->TimeToDraw);
+  if (exact != c.FrameRate.LooksForPoints())
+  {
+    this->SelectionStateChanged.Modified(); // makes new shaders
   }
 }
 
@@ -557,6 +753,9 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
   this->DrawingVertices = false;
   this->DrawingSelection = false;
+  this->UpdateSamples(renderer);
+  this->UpdateEconomy(renderer);
+  const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLHelper& helper = this->Primitives[PrimitiveTris];
   this->UpdateShaders(helper, renderer, actor);
   if (helper.Program)
@@ -568,6 +767,8 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     }
     helper.VAO->Bind(); // a new program has released it
     c.Indices.Bind();
+    const double coarser = c.FrameRate.GetCoarserLevels();
+    helper.Program->SetUniformf("nurbsCoarser", static_cast<float>(coarser));
     for (int shape = 0; shape < nurbs::Tile::ShapeCount; ++shape)
     {
       const int first = c.Textures.GetFirst(shape);
@@ -575,14 +776,20 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
       if (count > 0)
       {
         helper.Program->SetUniformi("nurbsFirstTile", first);
-        c.Indices.Draw(representation, shape, count);
+        c.Indices.Draw(representation, Coarser(shape, static_cast<int>(coarser)), count);
       }
+    }
+    if (c.FrameRate.IsMeasuring())
+    {
+      // Timer queries tell nothing on software renderers, which put the work off.
+      glFinish();
+      this->TimeToDraw = vtkTimerLog::GetUniversalTime() - start;
     }
     c.Indices.Unbind();
     vtkOpenGLCheckErrorMacro("failed after drawing tiles");
   }
   c.Textures.Deactivate(window);
-  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds })
+  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
   {
     buffer->Deactivate(window);
   }
@@ -602,7 +809,7 @@ void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
   }
   c.Textures.Release(owner);
   c.Indices.Release(owner != nullptr);
-  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds })
+  for (vtkNURBSBufferTexture* buffer : { &c.TrimPoints, &c.TrimRecords, &c.LookTexture, &c.FaceIds, &c.LookColors })
   {
     buffer->Release(owner != nullptr);
   }
@@ -615,6 +822,7 @@ void vtkNURBSMapper::ReleaseGraphicsResources(vtkWindow* window)
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;
+  c.Tessellated.ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -644,6 +852,13 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
   {
     this->SetPixelError(mapper->GetPixelError());
     this->SetExactFragments(mapper->GetExactFragments());
+    this->SetUseTessellation(mapper->GetUseTessellation());
+    this->SetInteractiveFrameRate(mapper->GetInteractiveFrameRate());
+    this->SetLook(mapper->GetLook());
+    this->SetLookTable(mapper->GetLookTable());
+    this->SetLookDirection(mapper->GetLookDirection());
+    this->SetNumberOfStripes(mapper->GetNumberOfStripes());
+    this->SetNumberOfIsoLines(mapper->GetNumberOfIsoLines());
     this->SetCompositeDataDisplayAttributes(mapper->GetCompositeDataDisplayAttributes());
   }
   this->Superclass::ShallowCopy(other);
@@ -654,6 +869,16 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PixelError: " << this->PixelError << "\n"
      << indent << "ExactFragments: " << this->ExactFragments << "\n"
+     << indent << "UseTessellation: " << this->UseTessellation << "\n"
+     << indent << "DrawsTessellation: " << this->DrawsTessellation << "\n"
+     << indent << "InteractiveFrameRate: " << this->InteractiveFrameRate << "\n"
+     << indent << "Look: " << this->Look << "\n"
+     << indent << "LookTable: " << this->LookTable.Get() << "\n"
+     << indent << "LookDirection: " << this->LookDirection[0] << " " << this->LookDirection[1] << " "
+     << this->LookDirection[2] << "\n"
+     << indent << "NumberOfStripes: " << this->NumberOfStripes << "\n"
+     << indent << "NumberOfIsoLines: " << this->NumberOfIsoLines[0] << " "
+     << this->NumberOfIsoLines[1] << "\n"
      << indent << "AchievedPixelError: " << this->AchievedPixelError << "\n"
      << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n"
      << indent << "CompositeDataDisplayAttributes: " << this->Attributes.Get() << "\n";

@@ -18,7 +18,8 @@
  *
  * When control points move, only theirs are sent and only their surfaces evaluated again.
  *
- * Needs OpenGL 3.2. Where the device can't do it, a warning tells why.
+ * Needs OpenGL 3.2. Where the device can't do it, a warning tells why, and the model is drawn by
+ * vtkNURBSTessellator.
  *
  * A mapper's textures live in one window at a time: drawn in another one, it moves there.
  *
@@ -36,9 +37,13 @@
 #include "vtkSmartPointer.h" // For the attributes
 
 #include <memory> // For the internals
+#include <string> // For parts of shaders
 
 class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
+class vtkOpenGLRenderWindow;
+class vtkScalarsToColors;
+class vtkShaderProgram;
 
 class VTKNURBSRENDERINGOPENGL2_EXPORT vtkNURBSMapper : public vtkOpenGLPolyDataMapper
 {
@@ -71,6 +76,94 @@ public:
   vtkSetMacro(ExactFragments, bool);
   vtkGetMacro(ExactFragments, bool);
   vtkBooleanMacro(ExactFragments, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether triangles of vtkNURBSTessellator, within PixelError, are drawn instead, even if the device
+   * can do better. Default off. GetDrawsTessellation tells whether the last frame was drawn that way,
+   * for this or because the device can't evaluate the model; then picked cells are triangles.
+   */
+  vtkSetMacro(UseTessellation, bool);
+  vtkGetMacro(UseTessellation, bool);
+  vtkBooleanMacro(UseTessellation, bool);
+  vtkGetMacro(DrawsTessellation, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Frames a second to be reached while the window asks for many, as an interactor does while the
+   * camera moves (vtkRenderWindow::SetDesiredUpdateRate). Where the whole is too slow for it, pixels take
+   * the triangles' points, then what was evaluated is drawn at coarser levels, without evaluating it
+   * again and with all values between levels, so that nothing jumps. Default 15; 0: always the whole.
+   * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 1.5.
+   */
+  vtkSetClampMacro(InteractiveFrameRate, double, 0.0, 1000.0);
+  vtkGetMacro(InteractiveFrameRate, double);
+  double GetCoarserLevels();
+  ///@}
+
+  /// What surfaces show instead of their colour; see SetLook.
+  enum Looks
+  {
+    PLAIN = 0,
+    MEAN_CURVATURE,
+    GAUSSIAN_CURVATURE,
+    MINIMUM_CURVATURE,
+    MAXIMUM_CURVATURE,
+    ZEBRA,
+    ISOPHOTES,
+    DRAFT_ANGLE
+  };
+
+  ///@{
+  /**
+   * What surfaces show, found for each pixel from the exact derivatives: their colour (PLAIN, default);
+   * a curvature (1 / length; its square for GAUSSIAN_CURVATURE; mean and principal ones are positive
+   * where the surface bends away from its outside, as a ball does) or the angle between the surface and
+   * LookDirection (DRAFT_ANGLE, in degrees, 90 where the outside looks that way) by LookTable; stripes
+   * that a mirror would show of a striped room (ZEBRA), or lines of equal angle to LookDirection
+   * (ISOPHOTES), as stripes of the colour and black.
+   */
+  vtkSetClampMacro(Look, int, PLAIN, DRAFT_ANGLE);
+  vtkGetMacro(Look, int);
+  ///@}
+
+  ///@{
+  /**
+   * Colours of curvatures and draft angles, over the table's own range. Default: none, which means blue
+   * to white to red: curvatures from -10 to 10 (Gaussian -100 to 100) over the bounds' diagonal (its
+   * square), angles from -90 to 90.
+   */
+  void SetLookTable(vtkScalarsToColors* table);
+  vtkScalarsToColors* GetLookTable();
+  ///@}
+
+  ///@{
+  /**
+   * Direction of draft, isophotes' light and the zebra's stripes, in the model's axes; of any length
+   * but 0. Default (0, 0, 1).
+   */
+  vtkSetVector3Macro(LookDirection, double);
+  vtkGetVector3Macro(LookDirection, double);
+  ///@}
+
+  ///@{
+  /**
+   * Stripes in 180 degrees, of ZEBRA and ISOPHOTES. Default 18, 2 to 720.
+   */
+  vtkSetClampMacro(NumberOfStripes, int, 2, 720);
+  vtkGetMacro(NumberOfStripes, int);
+  ///@}
+
+  ///@{
+  /**
+   * Into how many parts lines of constant u, and of constant v, cut each face's domain; drawn as the
+   * property draws edges (EdgeColor, LineWidth). Default 0, 0: no lines; up to 1000. With the property's
+   * EdgeVisibility, the edges of faces are drawn the same way.
+   */
+  vtkSetVector2Macro(NumberOfIsoLines, int);
+  vtkGetVector2Macro(NumberOfIsoLines, int);
   ///@}
 
   ///@{
@@ -131,6 +224,14 @@ protected:
 
   double PixelError = 0.5;
   bool ExactFragments = true;
+  bool UseTessellation = false;
+  bool DrawsTessellation = false;
+  double InteractiveFrameRate = 15.0;
+  int Look = PLAIN;
+  vtkSmartPointer<vtkScalarsToColors> LookTable;
+  double LookDirection[3] = { 0.0, 0.0, 1.0 };
+  int NumberOfStripes = 18;
+  int NumberOfIsoLines[2] = { 0, 0 };
   double AchievedPixelError = 0.0;
   vtkIdType NumberOfTriangles = 0;
   vtkSmartPointer<vtkCompositeDataDisplayAttributes> Attributes;
@@ -141,8 +242,16 @@ private:
 
   bool UpdateModel();
   bool UpdateTextures(vtkRenderer* renderer);
+  bool HasLook(vtkActor* actor);
   bool DrawsExactly(vtkActor* actor);
+  std::string GetDefines(vtkActor* actor);
+  void SetSurfaceParameters(
+    vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
+  void SetLookParameters(
+    vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor);
   void ReplaceSelection(std::string& fragment);
+  void UpdateSamples(vtkRenderer* renderer);
+  void UpdateEconomy(vtkRenderer* renderer);
 
   struct Internals;
   std::unique_ptr<Internals> Content;

@@ -68,7 +68,7 @@ std::string vtkNURBSTileTextures::GetMissingFeature(vtkOpenGLRenderWindow* windo
   return "";
 }
 
-bool vtkNURBSTileTextures::SetTable(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table,
+bool vtkNURBSTileTextures::SetTable(const nurbs::SurfaceTable& table,
   const std::vector<SurfaceInfo>& infos)
 {
   std::vector<int> surfaces;
@@ -87,7 +87,7 @@ bool vtkNURBSTileTextures::SetTable(vtkOpenGLRenderWindow* window, const nurbs::
   this->Error.clear();
   const auto send = [&](vtkNURBSBufferTexture& buffer, const auto& data, const char* what) {
     if (this->Error.empty() &&
-      !buffer.Upload(window, data.data(), data.size() * sizeof(data[0])))
+      !buffer.Upload(data.data(), data.size() * sizeof(data[0])))
     {
       this->Error = std::string("the device can't hold this model's ") + what;
     }
@@ -153,7 +153,7 @@ bool vtkNURBSTileTextures::Prepare(vtkOpenGLRenderWindow* window, const nurbs::S
   {
     return false;
   }
-  if (!this->Tiles.Upload(window, this->TileTexels.data(), 4 * this->TileTexels.size()))
+  if (!this->Tiles.Upload(this->TileTexels.data(), 4 * this->TileTexels.size()))
   {
     this->Error = "the device can't hold a list of " + std::to_string(tiles.size()) + " tiles";
     return false;
@@ -296,7 +296,7 @@ void vtkNURBSTileTextures::RunPass(
   {
     texels.insert(texels.end(), { job.Tile, job.X, job.Y, 0 });
   }
-  this->Jobs.Upload(window, texels.data(), 4 * texels.size());
+  this->Jobs.Upload(texels.data(), 4 * texels.size());
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLFramebufferObject* target = dir == 0 ? this->RowBuffer : this->AtlasBuffer;
   vtkTextureObject* textures[2] = { dir == 0 ? this->Rows : this->Positions,

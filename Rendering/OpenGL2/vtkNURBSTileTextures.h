@@ -54,7 +54,7 @@ public:
   static std::string GetMissingFeature(vtkOpenGLRenderWindow* window);
 
   /// Sends a table, and forgets all tiles. False, and GetError tells why, if it does not fit.
-  bool SetTable(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table,
+  bool SetTable(const nurbs::SurfaceTable& table,
     const std::vector<SurfaceInfo>& infos);
   /// Sends the moved control points of surfaces (ascending) of that table, and forgets their tiles.
   void MoveSurfaces(const nurbs::SurfaceTable& table, const std::vector<int>& surfaces);

@@ -103,4 +103,58 @@ inline void AddSquare(nurbs::ModelBuilder& builder)
   }
 }
 
+/// Half of the points lie on a coarse grid, which makes loops touch and overlap exactly.
+inline nurbs::Vec2 ConsumePoint(FuzzedDataProvider& bytes)
+{
+  if (bytes.ConsumeBool())
+  {
+    const double u = bytes.ConsumeIntegralInRange(0, 8) / 8.0;
+    return nurbs::Vec2(u, bytes.ConsumeIntegralInRange(0, 8) / 8.0);
+  }
+  const double u = bytes.ConsumeFloatingPointInRange(-0.01, 1.01);
+  return nurbs::Vec2(u, bytes.ConsumeFloatingPointInRange(-0.01, 1.01));
+}
+
+/// A Bezier curve of degree 1 to 3 from a to b.
+inline nurbs::Curve<2> ConsumeCurve(
+  FuzzedDataProvider& bytes, const nurbs::Vec2& a, const nurbs::Vec2& b)
+{
+  nurbs::Curve<2> curve;
+  curve.Degree = bytes.ConsumeIntegralInRange(1, 3);
+  curve.Knots.assign(curve.Degree + 1, 0.0);
+  curve.Knots.insert(curve.Knots.end(), curve.Degree + 1, 1.0);
+  curve.Points.push_back(a);
+  for (int i = 1; i < curve.Degree; ++i)
+  {
+    curve.Points.push_back(ConsumePoint(bytes));
+  }
+  curve.Points.push_back(b);
+  for (int i = 0; i <= curve.Degree; ++i)
+  {
+    const bool rational = i > 0 && i < curve.Degree && bytes.ConsumeBool();
+    curve.Weights.push_back(rational ? bytes.ConsumeFloatingPointInRange(0.1, 10.0) : 1.0);
+  }
+  curve.Pack();
+  return curve;
+}
+
+/// A loop of the current face: curves from point to point, some reversed, mostly closed.
+inline void AddLoop(nurbs::ModelBuilder& builder, FuzzedDataProvider& bytes)
+{
+  builder.BeginLoop();
+  const int count = bytes.ConsumeIntegralInRange(1, 8);
+  const nurbs::Vec2 start = ConsumePoint(bytes);
+  nurbs::Vec2 at = start;
+  for (int i = 0; i < count; ++i)
+  {
+    const bool last = i + 1 == count && bytes.ConsumeIntegralInRange(0, 9) > 0;
+    const nurbs::Vec2 next = last ? start : ConsumePoint(bytes);
+    const bool reversed = bytes.ConsumeIntegralInRange(0, 7) == 0;
+    const nurbs::Curve<2> curve =
+      reversed ? ConsumeCurve(bytes, next, at) : ConsumeCurve(bytes, at, next);
+    builder.AddTrimCurve(curve.View(), -1, reversed);
+    at = next;
+  }
+}
+
 } // namespace fuzzModel

@@ -10,58 +10,6 @@ namespace
 
 constexpr double Tolerance = 0.02;
 
-/// Half of the points lie on a coarse grid, which makes loops touch and overlap exactly.
-nurbs::Vec2 ConsumePoint(FuzzedDataProvider& bytes)
-{
-  if (bytes.ConsumeBool())
-  {
-    const double u = bytes.ConsumeIntegralInRange(0, 8) / 8.0;
-    return nurbs::Vec2(u, bytes.ConsumeIntegralInRange(0, 8) / 8.0);
-  }
-  const double u = bytes.ConsumeFloatingPointInRange(-0.01, 1.01);
-  return nurbs::Vec2(u, bytes.ConsumeFloatingPointInRange(-0.01, 1.01));
-}
-
-/// A Bezier curve of degree 1 to 3 from a to b.
-nurbs::Curve<2> ConsumeCurve(FuzzedDataProvider& bytes, const nurbs::Vec2& a, const nurbs::Vec2& b)
-{
-  nurbs::Curve<2> curve;
-  curve.Degree = bytes.ConsumeIntegralInRange(1, 3);
-  curve.Knots.assign(curve.Degree + 1, 0.0);
-  curve.Knots.insert(curve.Knots.end(), curve.Degree + 1, 1.0);
-  curve.Points.push_back(a);
-  for (int i = 1; i < curve.Degree; ++i)
-  {
-    curve.Points.push_back(ConsumePoint(bytes));
-  }
-  curve.Points.push_back(b);
-  for (int i = 0; i <= curve.Degree; ++i)
-  {
-    const bool rational = i > 0 && i < curve.Degree && bytes.ConsumeBool();
-    curve.Weights.push_back(rational ? bytes.ConsumeFloatingPointInRange(0.1, 10.0) : 1.0);
-  }
-  curve.Pack();
-  return curve;
-}
-
-void AddLoop(nurbs::ModelBuilder& builder, FuzzedDataProvider& bytes)
-{
-  builder.BeginLoop();
-  const int count = bytes.ConsumeIntegralInRange(1, 8);
-  const nurbs::Vec2 start = ConsumePoint(bytes);
-  nurbs::Vec2 at = start;
-  for (int i = 0; i < count; ++i)
-  {
-    const bool last = i + 1 == count && bytes.ConsumeIntegralInRange(0, 9) > 0;
-    const nurbs::Vec2 next = last ? start : ConsumePoint(bytes);
-    const bool reversed = bytes.ConsumeIntegralInRange(0, 7) == 0;
-    const nurbs::Curve<2> curve =
-      reversed ? ConsumeCurve(bytes, next, at) : ConsumeCurve(bytes, at, next);
-    builder.AddTrimCurve(curve.View(), -1, reversed);
-    at = next;
-  }
-}
-
 void CheckMesh(const nurbs::FaceMesh& mesh, const nurbs::TessellatorOptions& options)
 {
   if (mesh.Status == nurbs::FaceStatus::Failed)
@@ -97,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int loops = bytes.ConsumeIntegralInRange(0, 4);
   for (int i = 0; i < loops; ++i)
   {
-    AddLoop(builder, bytes);
+    fuzzModel::AddLoop(builder, bytes);
   }
   const nurbs::AssembledModel assembled = nurbs::AssembleModel(builder.Arrays());
   nurbs::TessellatorOptions options;

@@ -124,7 +124,6 @@ Difference Compare(Scene& scene, const vtkRayReference& reference)
         const double d = distance(rays[k].Depth);
         const nurbs::Vec3 along =
           reference.PixelRay(scene.Renderer, x + 0.5, y + 0.5).Direction;
-        double ee = std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d);
           result.Depth = std::max(result.Depth,
           std::abs((distance(depth[k]) - d) * along.dot(rays[k].Normal)) / (perPixel * d));
       }

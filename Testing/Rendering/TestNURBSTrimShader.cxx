@@ -243,6 +243,7 @@ public:
     return disc;
   }
 
+  static constexpr std::size_t FirstFine = 8; ///< From this face on, pieces are small.
   nurbs::Model Model;
   std::vector<std::unique_ptr<TrimmedSheet>> Sheets;
 
@@ -344,7 +345,6 @@ TEST(TrimShader, ClassifiesAsTheIndexDoes)
   }
   RecordProperty("Queries", std::to_string(queries.size()));
   RecordProperty("Differ", std::to_string(differ));
-  std::printf("differ %d of %zu\n", differ, queries.size());
   EXPECT_LT(differ, int(queries.size()) / 100);
 }
 
@@ -353,6 +353,7 @@ TEST(TrimShader, CoverageIsThatOfDenseSamples)
 {
   TrimShader shader;
   ASSERT_TRUE(shader.IsReady());
+  constexpr int Footprints = 600;
   const Faces faces;
   const TrimIndex index(faces.Model);
   Random random(23);
@@ -360,7 +361,7 @@ TEST(TrimShader, CoverageIsThatOfDenseSamples)
   for (std::size_t f = 1; f < faces.Sheets.size(); ++f)
   {
     const reference::Polyline line(*faces.Sheets[f], 50);
-    for (int k = 0; k < 600; ++k)
+    for (int k = 0; k < Footprints; ++k)
     {
       Query query;
       query.Face = int(f);
@@ -376,25 +377,25 @@ TEST(TrimShader, CoverageIsThatOfDenseSamples)
     }
   }
   const std::vector<Answer> answers = shader.Run(nurbs::Flatten(index), queries);
-  double sum = 0.0;
-  double most = 0.0;
-  std::vector<double> errors(faces.Sheets.size(), 0.0);
-  std::vector<double> worst(faces.Sheets.size(), 0.0);
+  std::vector<double> mean(faces.Sheets.size(), 0.0);
+  std::vector<double> most(faces.Sheets.size(), 0.0);
   for (std::size_t k = 0; k < queries.size(); ++k)
   {
     const double error = std::abs(answers[k].Coverage - Supersampled(index, queries[k], 48));
-    sum += error;
-    errors[std::size_t(queries[k].Face)] += error / 600;
-    most = std::max(most, error);
-    worst[std::size_t(queries[k].Face)] = std::max(worst[std::size_t(queries[k].Face)], error);
+    const auto face = std::size_t(queries[k].Face);
+    mean[face] += error / Footprints;
+    most[face] = std::max(most[face], error);
   }
-  for (std::size_t f = 1; f < errors.size(); ++f)
+  for (std::size_t f = 1; f < mean.size(); ++f)
   {
-    std::printf("face %d: mean error %.4f most %.4f\n", int(f), errors[f], worst[f]);
+    RecordProperty("MeanErrorOfFace" + std::to_string(f), std::to_string(mean[f]));
+    RecordProperty("MostErrorOfFace" + std::to_string(f), std::to_string(most[f]));
+    // Eight samples of a straight edge err by 0.03 in the mean; smooth boundaries do better. Where
+    // many pieces share a pixel (the last three faces), teeth may slip through between samples.
+    EXPECT_LT(mean[f], f < Faces::FirstFine ? 0.016 : 0.05) << f;
+    EXPECT_LT(most[f], f < Faces::FirstFine ? 0.22 : 0.37) << f;
   }
-  std::printf("mean %.4f most %.3f\n", sum / double(queries.size()), most);
-  EXPECT_LT(sum / double(queries.size()), 0.03);
-  EXPECT_LT(most, 0.3);
+  EXPECT_LT(mean[1], 0.003);
 }
 
 } // namespace

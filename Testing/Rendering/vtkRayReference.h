@@ -31,6 +31,7 @@ public:
   /// The ray through a place on the screen (pixels; the centre of the first is 0.5, 0.5).
   nurbs::Ray PixelRay(vtkRenderer* renderer, double x, double y) const;
   const nurbs::RayCaster& GetCaster() const { return this->Caster; }
+  const nurbs::Face& GetFace(std::int64_t face) const { return this->View->GetModel().Faces[face]; }
 
 private:
   std::shared_ptr<const vtkNURBSModelView> View;

@@ -16,9 +16,6 @@ uniform vec4 nurbsViewport; // x, y, width, height in pixels
 struct nurbsJet
 {
   vec4 h, hu, hv;
-#ifdef NURBS_SECOND
-  vec4 huu, huv, hvv;
-#endif
 };
 
 // Basis functions of a span at t and their first and second derivatives, by the triangle of Cox and
@@ -67,32 +64,20 @@ nurbsJet nurbsEvaluate(nurbsTileInfo tile, vec2 t)
   float nv[NURBS_MAX_DEGREE + 1], dv[NURBS_MAX_DEGREE + 1], ddv[NURBS_MAX_DEGREE + 1];
   nurbsBasis(tile.block.x, tile.degree.x, t.x, nu, du, ddu);
   nurbsBasis(tile.block.y, tile.degree.y, t.y, nv, dv, ddv);
-  nurbsJet jet;
-  jet.h = jet.hu = jet.hv = vec4(0.0);
-#ifdef NURBS_SECOND
-  jet.huu = jet.huv = jet.hvv = vec4(0.0);
-#endif
+  nurbsJet jet = nurbsJet(vec4(0.0), vec4(0.0), vec4(0.0));
   for (int j = 0; j <= tile.degree.y; ++j)
   {
-    vec4 row = vec4(0.0), rowU = vec4(0.0), rowUU = vec4(0.0);
+    vec4 row = vec4(0.0), rowU = vec4(0.0);
     int first = tile.point + j * tile.stride;
     for (int i = 0; i <= tile.degree.x; ++i)
     {
       vec4 p = texelFetch(nurbsPoints, first + i);
       row += nu[i] * p;
       rowU += du[i] * p;
-#ifdef NURBS_SECOND
-      rowUU += ddu[i] * p;
-#endif
     }
     jet.h += nv[j] * row;
     jet.hu += nv[j] * rowU;
     jet.hv += dv[j] * row;
-#ifdef NURBS_SECOND
-    jet.huu += nv[j] * rowUU;
-    jet.huv += dv[j] * rowU;
-    jet.hvv += ddv[j] * row;
-#endif
   }
   return jet;
 }
@@ -104,9 +89,9 @@ struct nurbsRay
   vec4 x, y, z, w;
 };
 
-nurbsRay nurbsGetRay(int surface)
+nurbsRay nurbsGetRay(int surface, vec2 pixel)
 {
-  vec2 ndc = 2.0 * (gl_FragCoord.xy - nurbsViewport.xy) / nurbsViewport.zw - 1.0;
+  vec2 ndc = 2.0 * (pixel - nurbsViewport.xy) / nurbsViewport.zw - 1.0;
   mat4 m = transpose(nurbsToClip);
   nurbsRay ray;
   ray.x = 0.5 * nurbsViewport.z * (m[0] - ndc.x * m[3]);
@@ -122,18 +107,28 @@ nurbsRay nurbsGetRay(int surface)
   return ray;
 }
 
-// From parameters near the hit to the hit, with the change on screen, in pixels, with t, and the
-// pixels of a unit of length there. False if the ray passes the surface by.
-// noise: pixels of rounding errors in single precision.
-bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, out mat2 pixels,
-  out float perUnit, out float noise)
+// What a ray has found.
+struct nurbsFound
 {
+  vec2 t;        // parameters of the patch
+  nurbsJet jet;
+  mat2 pixels;   // change on screen, in pixels, with t
+  float perUnit; // pixels of a unit of length
+  float noise;   // pixels of rounding errors in single precision
+};
+
+// From parameters near the hit to the hit. False if the ray passes the surface by.
+bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, vec2 start, out nurbsFound found)
+{
+  vec2 t = start;
   float radius = texelFetch(nurbsOrigins, 2 * tile.surface + 1).w;
   vec2 last = t;
   float side = 0.0; // on which side of the outline the search began
-  for (int i = 0; i < 16; ++i)
+  float least = 1e30;
+  int poor = 0;
+  for (int i = 0; i < 12; ++i)
   {
-    jet = nurbsEvaluate(tile, t);
+    nurbsJet jet = nurbsEvaluate(tile, t);
     vec2 f = vec2(dot(ray.x, jet.h), dot(ray.y, jet.h));
     vec2 fu = vec2(dot(ray.x, jet.hu), dot(ray.y, jet.hu));
     vec2 fv = vec2(dot(ray.x, jet.hv), dot(ray.y, jet.hv));
@@ -141,19 +136,18 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, 
     // Derivatives of the place on screen, by the quotient rule.
     fu -= f * (dot(ray.w, jet.hu) / w);
     fv -= f * (dot(ray.w, jet.hv) / w);
-    float miss = length(f) / abs(w);
-    pixels = mat2(fu, fv) / w;
-    perUnit = length(ray.x.xyz) * jet.h.w / w;
-    noise = 2e-7 * radius * perUnit;
+    float perUnit = length(ray.x.xyz) * jet.h.w / w;
+    found = nurbsFound(t, jet, mat2(fu, fv) / w, perUnit, 2e-7 * radius * perUnit);
     float det = fu.x * fv.y - fu.y * fv.x;
     if (det == 0.0)
     {
       break;
     }
     vec2 step = vec2(f.x * fv.y - f.y * fv.x, fu.x * f.y - fu.y * f.x) / det;
-    if (miss < 0.002 + noise)
+    float miss = length(f) / abs(w);
+    if (miss < 0.002 + found.noise)
     {
-      t -= clamp(step, -0.01, 0.01); // what is left is the square of that
+      found.t -= clamp(step, -0.01, 0.01); // what is left is the square of that
       return true;
     }
     side = i == 0 ? sign(det) : side;
@@ -162,9 +156,59 @@ bool nurbsHit(nurbsRay ray, nurbsTileInfo tile, inout vec2 t, out nurbsJet jet, 
       t = mix(last, t, 0.25); // the step led over the outline, where another point is
       continue;
     }
+    // Where there is a hit, even at the outline, a step leaves a quarter or less, but for a few.
+    poor += miss > 0.5 * least ? 1 : 0;
+    if (poor > 2)
+    {
+      break;
+    }
+    least = min(least, miss);
     // No further than a patch: beyond it the polynomials mean nothing.
     last = t;
     t = clamp(t - clamp(step, -0.5, 0.5), -0.25, 1.25);
   }
   return false;
+}
+
+// Goes on into the next patch, if the point is beyond a side across which the surface is smooth.
+bool nurbsStepOver(inout nurbsTileInfo tile, int dir, inout vec2 t)
+{
+  int side = t[dir] < 0.0 ? -1 : t[dir] > 1.0 ? 1 : 0;
+  int block = tile.block[dir];
+  float start = texelFetch(nurbsKnots, block).r;
+  float size = texelFetch(nurbsKnots, block + 1).r;
+  int open = int(texelFetch(nurbsKnots, block + 3).r);
+  bool ends = side < 0 ? start <= 0.0 || (open & 1) != 0 : start + size >= 1.0 || (open & 2) != 0;
+  if (side == 0 || ends)
+  {
+    return false;
+  }
+  int next = block + side * (4 + 2 * tile.degree[dir]);
+  float first = texelFetch(nurbsKnots, block + 2).r;
+  float nextFirst = texelFetch(nurbsKnots, next + 2).r;
+  t[dir] = (start + t[dir] * size - texelFetch(nurbsKnots, next).r) / texelFetch(nurbsKnots, next + 1).r;
+  tile.block[dir] = next;
+  tile.point += int(nextFirst - first) * (dir == 0 ? 1 : tile.stride);
+  return true;
+}
+
+// The hit in the patch that the ray meets, which may be the next one.
+bool nurbsFindHit(nurbsRay ray, inout nurbsTileInfo tile, vec2 start, out nurbsFound found)
+{
+  vec2 t = start;
+  for (int hop = 0; hop < 3; ++hop)
+  {
+    if (!nurbsHit(ray, tile, t, found))
+    {
+      return false;
+    }
+    t = found.t;
+    bool overU = nurbsStepOver(tile, 0, t);
+    bool overV = nurbsStepOver(tile, 1, t);
+    if (!overU && !overV)
+    {
+      break;
+    }
+  }
+  return true;
 }

@@ -3,7 +3,8 @@
 //
 // The steps of FaceTrim::Inside (Filters/Core/TrimIndex.h, which says what counts as inside and where
 // the method comes from) on the texels of nurbs::Flatten. Coordinates `st` are (u, v) normalised to
-// the face's domain: [0, 1] x [0, 1].
+// the face's domain: [0, 1] x [0, 1]. What rounding may get wrong lies within a few steps of a float
+// (2.5e-7 of the domain) of the boundary, whatever the zoom.
 //
 // nurbsTrimRecords (RGBA32I), a face from its start texel on:
 //   header        (first point texel, root, 0, 0); the root is a child as those of nodes
@@ -301,10 +302,14 @@ float nurbsCoverage(int trimStart, vec2 st, vec2 dstdx, vec2 dstdy)
     return child == -2 ? 1.0 : 0.0;
   }
   int leaf = 4 * (trimStart + 1 - 3 - child);
-  int head = nurbsTrimInteger(leaf);
-  bool inside = (head & 1) != 0;
+  ivec4 head = texelFetch(nurbsTrimRecords, leaf >> 2);
+  if (head.y > 8) // bisection of many pieces, eight times, is less than a look at each
+  {
+    return nurbsSampledCoverage(trimStart, header.x, child, st, dstdx, dstdy);
+  }
+  bool inside = (head.x & 1) != 0;
   int passing = -1;
-  for (int k = 0; k < (head >> 1); ++k)
+  for (int k = 0; k < (head.x >> 1); ++k)
   {
     int reference = nurbsTrimInteger(leaf + 2 + k);
     int place = header.x + (reference >> 8);

@@ -3,7 +3,7 @@
 /// @brief A sheet with trimming loops, and the winding number of its loops as dense polylines.
 #pragma once
 
-#include "Model.h"
+#include "TrimPieces.h"
 
 #include <cmath>
 #include <deque>
@@ -131,8 +131,8 @@ public:
     int winding = 0;
     for (std::size_t k = 0; k < this->Points.size(); ++k)
     {
-      const nurbs::Vec2& a = this->Points[k];
-      const nurbs::Vec2& b = this->Points[this->Next[k]];
+      const double* a = this->Points[k].data();
+      const double* b = this->Points[this->Next[k]].data();
       const double turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
       winding += a[1] <= p[1] && b[1] > p[1] && turn > 0.0;
       winding -= a[1] > p[1] && b[1] <= p[1] && turn < 0.0;
@@ -145,10 +145,14 @@ public:
   {
     for (std::size_t k = 0; k < this->Points.size(); ++k)
     {
-      const nurbs::Vec2& a = this->Points[k];
-      const nurbs::Vec2 d = this->Points[this->Next[k]] - a;
-      const double t = d.squaredNorm() > 0.0 ? (p - a).dot(d) / d.squaredNorm() : 0.0;
-      const double distance = (a + std::min(1.0, std::max(0.0, t)) * d - p).norm();
+      const double* a = this->Points[k].data();
+      const double* b = this->Points[this->Next[k]].data();
+      const double d[2] = { b[0] - a[0], b[1] - a[1] };
+      const double e[2] = { p[0] - a[0], p[1] - a[1] };
+      const double square = d[0] * d[0] + d[1] * d[1];
+      const double along = square > 0.0 ? (d[0] * e[0] + d[1] * e[1]) / square : 0.0;
+      const double t = std::min(1.0, std::max(0.0, along));
+      const double distance = std::hypot(t * d[0] - e[0], t * d[1] - e[1]);
       if (distance < 4.0 * this->Bow[k] + 1e-11)
       {
         return true;
@@ -192,5 +196,66 @@ private:
   std::vector<std::size_t> Next;
   std::vector<double> Bow; ///< How far the curve is from the middle of a chord.
 };
+
+/// True if a ray from p to the right crosses the piece.
+inline bool IsCrossed(const nurbs::TrimPieces& cut, const nurbs::TrimPiece& piece, nurbs::Vec2 p)
+{
+  if (p[1] < piece.Low[1] || p[1] >= piece.High[1] || p[0] >= piece.High[0])
+  {
+    return false;
+  }
+  const nurbs::Vec2 size = piece.High - piece.Low;
+  nurbs::Vec2 local = (p - piece.Low).cwiseQuotient(size);
+  local[0] = piece.Falling ? (piece.High[0] - p[0]) / size[0] : local[0];
+  return p[0] < piece.Low[0] || LiesRight(piece, cut.Inner.data(), local);
+}
+
+/// The parity of all pieces right of p, without any search structure.
+inline bool IsInside(const nurbs::TrimPieces& cut, const nurbs::Vec2& p)
+{
+  bool inside = false;
+  for (const nurbs::TrimPiece& piece : cut.Pieces)
+  {
+    inside = inside != IsCrossed(cut, piece, p);
+  }
+  return inside;
+}
+
+/// True if p is on a piece but for rounding; not if the piece is upright, which is no matter of
+/// rounding.
+inline bool IsOnPiece(const nurbs::TrimPieces& cut, const nurbs::Vec2& p)
+{
+  const nurbs::Vec2 off(1e-12, 0.0);
+  for (const nurbs::TrimPiece& piece : cut.Pieces)
+  {
+    if (piece.Low[0] < piece.High[0] &&
+      IsCrossed(cut, piece, p - off) != IsCrossed(cut, piece, p + off))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The corners of all pieces' boxes, with each other's coordinates: where rounding could go wrong.
+inline std::vector<nurbs::Vec2> CriticalPoints(const nurbs::TrimPieces& cut, std::size_t most)
+{
+  std::vector<nurbs::Vec2> points;
+  const std::size_t n = cut.Pieces.size();
+  for (std::size_t k = 0; k < n * n && points.size() < most; ++k)
+  {
+    const nurbs::TrimPiece& a = cut.Pieces[k % n];
+    const nurbs::TrimPiece& b = cut.Pieces[(k % n + k / n) % n];
+    for (const nurbs::Vec2& p : { nurbs::Vec2(a.Low[0], b.Low[1]), nurbs::Vec2(a.Low[0], b.High[1]),
+           nurbs::Vec2(a.High[0], b.Low[1]), nurbs::Vec2(a.High[0], b.High[1]) })
+    {
+      if (p.minCoeff() >= 0.0 && p.maxCoeff() < 1.0)
+      {
+        points.push_back(p);
+      }
+    }
+  }
+  return points;
+}
 
 } // namespace reference
