@@ -37,9 +37,11 @@ struct Arguments
 
 void Declare(CLI::App& app, Arguments& a)
 {
-  app.add_option("--method", a.Method,
-       "exact or triangles (vtkNURBSMapper with and without ExactFragments), guaranteed or estimated "
-       "(vtkNURBSTessellator's error modes)")
+  app
+    .add_option("--method", a.Method,
+      "exact or triangles (vtkNURBSMapper with and without ExactFragments), guaranteed or "
+      "estimated "
+      "(vtkNURBSTessellator's error modes)")
     ->check(CLI::IsMember({ "exact", "triangles", "guaranteed", "estimated" }));
   app.add_option("--patches", a.Patches, "Faces of the car body")->capture_default_str();
   app.add_option("--pixel-error", a.PixelError, "Of triangles on screen")->capture_default_str();
@@ -68,6 +70,7 @@ public:
     this->Mapper->SetInputData(model);
     this->Mapper->SetPixelError(a.PixelError);
     this->Mapper->SetExactFragments(a.Method == "exact");
+    this->Mapper->SetInteractiveFrameRate(0.0);
   }
   vtkMapper* GetMapper() override { return this->Mapper; }
   double BytesSent() override { return double(this->Mapper->GetNumberOfBytesSent()); }
@@ -178,8 +181,8 @@ nlohmann::json Run(const Arguments& a)
   rest->DeepCopy(model->GetPoints());
 
   constexpr int Size[2] = { 800, 600 };
-  auto window =
-    vtkSmartPointer<vtkNURBSEGLRenderWindow>::Take(vtkNURBSEGLRenderWindow::Create(Size[0], Size[1]));
+  auto window = vtkSmartPointer<vtkNURBSEGLRenderWindow>::Take(
+    vtkNURBSEGLRenderWindow::Create(Size[0], Size[1]));
   if (!window)
   {
     throw std::runtime_error("there is no OpenGL");
@@ -218,23 +221,19 @@ nlohmann::json Run(const Arguments& a)
   Frames frames(window, *method);
   result["first"] = frames.Measure(1, [](int) {});
   result["still"] = frames.Measure(a.Frames, [](int) {});
-  result["zooming"] = frames.Measure(a.Frames,
-    [&](int)
-    {
-      camera->Zoom(1.1);
-      renderer->ResetCameraClippingRange();
-      method->Changed();
-    });
+  result["zooming"] = frames.Measure(a.Frames, [&](int) {
+    camera->Zoom(1.1);
+    renderer->ResetCameraClippingRange();
+    method->Changed();
+  });
   camera->SetViewAngle(30.0);
   renderer->ResetCameraClippingRange();
   method->Changed();
   window->Render();
-  result["moving"] = frames.Measure(a.Frames,
-    [&](int i)
-    {
-      Deform(model, rest, 0.3 * (i + 1), size);
-      method->Changed();
-    });
+  result["moving"] = frames.Measure(a.Frames, [&](int i) {
+    Deform(model, rest, 0.3 * (i + 1), size);
+    method->Changed();
+  });
   result["memory"] = measuring::PeakMemory();
   return result;
 }
@@ -244,11 +243,11 @@ nlohmann::json Run(const Arguments& a)
 int main(int argc, char** argv)
 {
   Arguments arguments;
-  CLI::App app{
-    "Times drawing of a car body, 800 x 600 pixels, and prints JSON: the first picture, and medians\n"
-    "of frames that are still, zooming by 1.1, and with all control points moving. Bytes are those\n"
-    "sent to the device, a frame."
-  };
+  CLI::App app{ "Times drawing of a car body, 800 x 600 pixels, and prints JSON: the first "
+                "picture, and medians\n"
+                "of frames that are still, zooming by 1.1, and with all control points moving. "
+                "Bytes are those\n"
+                "sent to the device, a frame." };
   Declare(app, arguments);
   CLI11_PARSE(app, argc, argv);
   try

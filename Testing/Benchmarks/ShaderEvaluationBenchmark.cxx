@@ -62,7 +62,8 @@ double Seconds(F&& work)
   work(); // shaders are compiled, textures allocated
   glFinish();
   std::vector<double> taken;
-  for (double total = 0.0; taken.empty() || (taken.size() < 9 && total < 1.0); total += taken.back())
+  for (double total = 0.0; taken.empty() || (taken.size() < 9 && total < 1.0);
+       total += taken.back())
   {
     const measuring::Stopwatch stopwatch;
     work();
@@ -72,8 +73,8 @@ double Seconds(F&& work)
   return measuring::Median(taken);
 }
 
-void Allocate(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, int width, int height,
-  int components)
+void Allocate(
+  vtkOpenGLRenderWindow* window, vtkTextureObject* texture, int width, int height, int components)
 {
   texture->SetContext(window);
   texture->SetMinificationFilter(vtkTextureObject::Nearest);
@@ -184,17 +185,15 @@ Result DeBoor(vtkOpenGLRenderWindow* window, nurbs::SurfaceTable& table, int sid
     }
   }
   vtkNURBSTileTextures textures;
-  textures.SetTable(window, table, std::vector<vtkNURBSTileTextures::SurfaceInfo>(1));
+  textures.SetTable(table, std::vector<vtkNURBSTileTextures::SurfaceInfo>(1));
   Result result;
-  result.Seconds = Seconds(
-    [&]
+  result.Seconds = Seconds([&] {
+    textures.MoveSurfaces(table, { 0 });
+    if (!textures.Prepare(window, table, all))
     {
-      textures.MoveSurfaces(table, { 0 });
-      if (!textures.Prepare(window, table, all))
-      {
-        throw std::runtime_error(textures.GetError());
-      }
-    });
+      throw std::runtime_error(textures.GetError());
+    }
+  });
   const double samples = (1 << tile.CellsLog(0)) + 1;
   result.Vertices = double(all.size()) * samples * samples;
   result.Bytes = 32.0 * (result.Vertices + double(all.size()) * samples * (Degree + 1));
@@ -206,13 +205,15 @@ Result DeBoor(vtkOpenGLRenderWindow* window, nurbs::SurfaceTable& table, int sid
 class BasisFunctions
 {
 public:
-  BasisFunctions(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table, int side, bool local)
+  BasisFunctions(
+    vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table, int side, bool local)
     : Window(window)
     , Table(table)
     , Surface(table[0].View)
     , Side(side)
     , Functions(local ? Degree + 1 : Surface.Count[0] + Degree)
-    , BasisPass(window, ReadShader(std::string("#define BASIS\n") + (local ? "#define LOCAL\n" : "")))
+    , BasisPass(
+        window, ReadShader(std::string("#define BASIS\n") + (local ? "#define LOCAL\n" : "")))
     , SumPass(window, ReadShader(local ? "#define LOCAL\n" : ""))
   {
     std::vector<int> spans;
@@ -224,8 +225,8 @@ public:
     }
     const nurbs::KnotView& view = this->Surface.Knots[0];
     const std::vector<float> knots(view.begin(), view.end());
-    this->Spans.Upload(window, spans.data(), 4 * spans.size());
-    this->Knots.Upload(window, knots.data(), 4 * knots.size());
+    this->Spans.Upload(spans.data(), 4 * spans.size());
+    this->Knots.Upload(knots.data(), 4 * knots.size());
     for (auto& basis : this->Basis)
     {
       for (vtkTextureObject* texture : { basis[0].Get(), basis[1].Get() })
@@ -238,9 +239,9 @@ public:
   }
   ~BasisFunctions()
   {
-    for (vtkTextureObject* texture : { this->Basis[0][0].Get(), this->Basis[0][1].Get(),
-           this->Basis[1][0].Get(), this->Basis[1][1].Get(), this->Positions.Get(),
-           this->Normals.Get() })
+    for (vtkTextureObject* texture :
+      { this->Basis[0][0].Get(), this->Basis[0][1].Get(), this->Basis[1][0].Get(),
+        this->Basis[1][1].Get(), this->Positions.Get(), this->Normals.Get() })
     {
       texture->ReleaseGraphicsResources(this->Window);
     }
@@ -275,7 +276,8 @@ public:
       const double u = domain.Min + domain.Length() * x / (this->Side - 1);
       const double v = domain.Min + domain.Length() * y / (this->Side - 1);
       const nurbs::Vec3 exact = nurbs::Evaluate(this->Surface, u, v);
-      worst = std::max(worst, (nurbs::Vec3(p[0], p[1], p[2]) + this->Table[0].Origin - exact).norm());
+      worst =
+        std::max(worst, (nurbs::Vec3(p[0], p[1], p[2]) + this->Table[0].Origin - exact).norm());
     }
     return worst / (2.0 * this->Table[0].Radius);
   }
@@ -283,45 +285,40 @@ public:
 private:
   void Run()
   {
-    this->Points.Upload(this->Window, this->Table.GetPoints().data(), 4 * this->Table.GetPoints().size());
+    this->Points.Upload(this->Table.GetPoints().data(), 4 * this->Table.GetPoints().size());
     const nurbs::Interval domain = this->Surface.Domain(0);
     const float interval[2] = { float(domain.Min), float(domain.Length()) };
     for (auto& basis : this->Basis) // u and v have the same knots and samples; both are computed
     {
       for (int degree = 0; degree <= Degree; ++degree)
       {
-        this->BasisPass.Run({ basis[degree % 2] },
-          [&](vtkShaderProgram* program)
-          {
-            SetTexture(program, "lower", basis[1 - degree % 2]);
-            program->SetUniformi("knots", this->Knots.Activate(this->Window));
-            program->SetUniformi("spans", this->Spans.Activate(this->Window));
-            program->SetUniformi("degree", degree);
-            program->SetUniformi("functions", this->Functions);
-            program->SetUniformi("samples", this->Side);
-            program->SetUniform2f("domain", interval);
-          });
+        this->BasisPass.Run({ basis[degree % 2] }, [&](vtkShaderProgram* program) {
+          SetTexture(program, "lower", basis[1 - degree % 2]);
+          program->SetUniformi("knots", this->Knots.Activate(this->Window));
+          program->SetUniformi("spans", this->Spans.Activate(this->Window));
+          program->SetUniformi("degree", degree);
+          program->SetUniformi("functions", this->Functions);
+          program->SetUniformi("samples", this->Side);
+          program->SetUniform2f("domain", interval);
+        });
         basis[1 - degree % 2]->Deactivate();
       }
     }
-    this->SumPass.Run({ this->Positions, this->Normals },
-      [&](vtkShaderProgram* program)
-      {
-        SetTexture(program, "basisU", this->Basis[0][Degree % 2]);
-        SetTexture(program, "basisV", this->Basis[1][Degree % 2]);
-        const auto set = [&](const char* name, int value)
+    this->SumPass.Run({ this->Positions, this->Normals }, [&](vtkShaderProgram* program) {
+      SetTexture(program, "basisU", this->Basis[0][Degree % 2]);
+      SetTexture(program, "basisV", this->Basis[1][Degree % 2]);
+      const auto set = [&](const char* name, int value) {
+        if (program->IsUniformUsed(name))
         {
-          if (program->IsUniformUsed(name))
-          {
-            program->SetUniformi(name, value);
-          }
-        };
-        set("points", this->Points.Activate(this->Window));
-        set("spansU", this->Spans.Activate(this->Window));
-        set("spansV", this->Spans.Activate(this->Window));
-        set("countU", this->Surface.Count[0]);
-        set("countV", this->Surface.Count[1]);
-      });
+          program->SetUniformi(name, value);
+        }
+      };
+      set("points", this->Points.Activate(this->Window));
+      set("spansU", this->Spans.Activate(this->Window));
+      set("spansV", this->Spans.Activate(this->Window));
+      set("countU", this->Surface.Count[0]);
+      set("countV", this->Surface.Count[1]);
+    });
     this->Basis[0][Degree % 2]->Deactivate();
     this->Basis[1][Degree % 2]->Deactivate();
     for (vtkNURBSBufferTexture* buffer : { &this->Spans, &this->Knots, &this->Points })
@@ -361,16 +358,12 @@ double CopyBandwidth(vtkOpenGLRenderWindow* window)
       gl_FragData[0] = texelFetch(a, ivec2(gl_FragCoord.xy), 0);
       gl_FragData[1] = texelFetch(b, ivec2(gl_FragCoord.xy), 0);
     })");
-  const double seconds = Seconds(
-    [&]
-    {
-      copy.Run({ textures[2], textures[3] },
-        [&](vtkShaderProgram* program)
-        {
-          SetTexture(program, "a", textures[0]);
-          SetTexture(program, "b", textures[1]);
-        });
+  const double seconds = Seconds([&] {
+    copy.Run({ textures[2], textures[3] }, [&](vtkShaderProgram* program) {
+      SetTexture(program, "a", textures[0]);
+      SetTexture(program, "b", textures[1]);
     });
+  });
   for (auto& texture : textures)
   {
     texture->ReleaseGraphicsResources(window);
@@ -382,8 +375,7 @@ double CopyBandwidth(vtkOpenGLRenderWindow* window)
 double MemoryBandwidth()
 {
   std::vector<char> from(std::size_t(256) << 20, 1), to(from.size());
-  return double(from.size()) /
-    Seconds([&] { std::memcpy(to.data(), from.data(), from.size()); });
+  return double(from.size()) / Seconds([&] { std::memcpy(to.data(), from.data(), from.size()); });
 }
 
 struct Arguments

@@ -50,8 +50,8 @@ public:
 
   std::vector<Vertex> Evaluate(const SurfaceTable& table, const std::vector<Tile>& tiles)
   {
-    EXPECT_TRUE(this->Textures.SetTable(
-      this->Window, table, std::vector<vtkNURBSTileTextures::SurfaceInfo>(table.Size())));
+    EXPECT_TRUE(
+      this->Textures.SetTable(table, std::vector<vtkNURBSTileTextures::SurfaceInfo>(table.Size())));
     return this->Run(table, tiles);
   }
 
