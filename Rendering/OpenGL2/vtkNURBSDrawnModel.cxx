@@ -122,7 +122,6 @@ std::shared_ptr<const vtkNURBSModelView> ViewOf(
 
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
 {
-  const vtkNURBSParallelScope parallel;
   std::vector<Leaf> leaves = LeavesOf(input);
   this->Moved.clear();
   this->Warnings.clear();
@@ -141,6 +140,7 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
     }
     return Change::None;
   }
+  const vtkNURBSParallelScope parallel;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
     Leaf& leaf = leaves[i];

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Evaluation by shaders, de Boor's algorithm beside basis functions, and drawing of car bodies by
-vtkNURBSMapper beside tessellation at the same pixel error. The device is EGL's first; it is named."""
+vtkNURBSMapper beside tessellation at the same pixel error. Takes EGL's first device, and names it."""
 
 import sys
 
@@ -64,9 +64,8 @@ def drawing(report, sizes, limit):
     for size in sizes:
         for method, name in METHODS.items():
             print(f"... {size} faces, {name}", file=sys.stderr, flush=True)
-            done = bench.run_json(
-                [bench.program("DrawingBenchmark"), "--patches", str(size), "--method", method], limit
-            )
+            command = [bench.program("DrawingBenchmark"), "--patches", str(size)]
+            done = bench.run_json([*command, "--method", method], limit)
             if "error" in done:
                 report.text(f"- {size} faces, {name}: {done['error']}")
                 continue
