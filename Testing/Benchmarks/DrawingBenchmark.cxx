@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times drawing of one model by vtkNURBSMapper, or by tessellation and vtkPolyDataMapper, and prints
-// JSON; see --help.
+// Times drawing of one model by vtkNURBSMapper, or by tessellation and vtkPolyDataMapper, and
+// prints JSON; see --help.
 #include "Measuring.h"
 #include "vtkNURBSEGLRenderWindow.h"
 #include "vtkNURBSMapper.h"

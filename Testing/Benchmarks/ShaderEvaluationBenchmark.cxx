@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times evaluation of a bicubic rational surface on the GPU, by de Boor's algorithm as
+// Times evaluation of a rational surface on the GPU, by de Boor's algorithm as
 // vtkNURBSTileTextures does it and by basis functions in many passes, and prints JSON; see --help.
 #include "Measuring.h"
 #include "SurfaceTable.h"
@@ -31,17 +31,15 @@
 namespace
 {
 
-constexpr int Degree = 3;
-
 /// The control net has `side` x `side` points.
-nurbs::Surface Sheet(int side)
+nurbs::Surface Sheet(int degree, int side)
 {
   nurbs::Surface s;
   for (int dir = 0; dir < 2; ++dir)
   {
-    s.Degree[dir] = Degree;
+    s.Degree[dir] = degree;
     s.Count[dir] = side;
-    s.Knots[dir] = nurbs::UniformKnots(Degree, side);
+    s.Knots[dir] = nurbs::UniformKnots(degree, side);
   }
   for (int j = 0; j < side; ++j)
   {
@@ -135,14 +133,14 @@ private:
   vtkNew<vtkOpenGLVertexArrayObject> NoAttributes;
 };
 
-std::string ReadShader(const std::string& defines)
+std::string ReadShader(int degree, const std::string& defines)
 {
   std::ifstream file(NURBS_BENCHMARKS "/basisFunctions.glsl");
   std::stringstream text;
   text << file.rdbuf();
   std::string source = text.str();
   vtkShaderProgram::Substitute(source, "//VTK::System::Dec",
-    "//VTK::System::Dec\n#define DEGREE " + std::to_string(Degree) + "\n" + defines);
+    "//VTK::System::Dec\n#define DEGREE " + std::to_string(degree) + "\n" + defines);
   return source;
 }
 
@@ -163,8 +161,8 @@ nlohmann::json ToJson(const Result& r)
   return { { "seconds", r.Seconds }, { "vertices", r.Vertices }, { "bytes", r.Bytes } };
 }
 
-/// vtkNURBSTileTextures, control points sent each time: about `side` x `side` vertices, as many cells
-/// a span as make the nearest power of two.
+/// vtkNURBSTileTextures, control points sent each time: about `side` x `side` vertices, a power of
+/// two of cells a span.
 Result DeBoor(vtkOpenGLRenderWindow* window, nurbs::SurfaceTable& table, int side)
 {
   const nurbs::TableSurface& s = table[0];
@@ -196,7 +194,7 @@ Result DeBoor(vtkOpenGLRenderWindow* window, nurbs::SurfaceTable& table, int sid
   });
   const double samples = (1 << tile.CellsLog(0)) + 1;
   result.Vertices = double(all.size()) * samples * samples;
-  result.Bytes = 32.0 * (result.Vertices + double(all.size()) * samples * (Degree + 1));
+  result.Bytes = 32.0 * (result.Vertices + double(all.size()) * samples * (s.View.Degree[1] + 1));
   textures.Release(window);
   return result;
 }
@@ -210,18 +208,20 @@ public:
     : Window(window)
     , Table(table)
     , Surface(table[0].View)
+    , Degree(Surface.Degree[0])
     , Side(side)
     , Functions(local ? Degree + 1 : Surface.Count[0] + Degree)
-    , BasisPass(
-        window, ReadShader(std::string("#define BASIS\n") + (local ? "#define LOCAL\n" : "")))
-    , SumPass(window, ReadShader(local ? "#define LOCAL\n" : ""))
+    , BasisPass(window,
+        ReadShader(this->Degree, std::string("#define BASIS\n") + (local ? "#define LOCAL\n" : "")))
+    , SumPass(window, ReadShader(this->Degree, local ? "#define LOCAL\n" : ""))
   {
     std::vector<int> spans;
     const nurbs::Interval domain = this->Surface.Domain(0);
     for (int k = 0; k < side; ++k)
     {
       const double u = domain.Min + domain.Length() * k / (side - 1);
-      spans.insert(spans.end(), { nurbs::FindSpan(this->Surface.Knots[0], Degree, u), 0, 0, 0 });
+      spans.insert(
+        spans.end(), { nurbs::FindSpan(this->Surface.Knots[0], this->Degree, u), 0, 0, 0 });
     }
     const nurbs::KnotView& view = this->Surface.Knots[0];
     const std::vector<float> knots(view.begin(), view.end());
@@ -256,7 +256,8 @@ public:
     Result result;
     result.Seconds = Seconds([this] { this->Run(); });
     result.Vertices = double(this->Side) * this->Side;
-    result.Bytes = 32.0 * result.Vertices + 2.0 * (Degree + 1) * 8.0 * this->Functions * this->Side;
+    result.Bytes =
+      32.0 * result.Vertices + 2.0 * (this->Degree + 1) * 8.0 * this->Functions * this->Side;
     return result;
   }
 
@@ -290,7 +291,7 @@ private:
     const float interval[2] = { float(domain.Min), float(domain.Length()) };
     for (auto& basis : this->Basis) // u and v have the same knots and samples; both are computed
     {
-      for (int degree = 0; degree <= Degree; ++degree)
+      for (int degree = 0; degree <= this->Degree; ++degree)
       {
         this->BasisPass.Run({ basis[degree % 2] }, [&](vtkShaderProgram* program) {
           SetTexture(program, "lower", basis[1 - degree % 2]);
@@ -305,8 +306,8 @@ private:
       }
     }
     this->SumPass.Run({ this->Positions, this->Normals }, [&](vtkShaderProgram* program) {
-      SetTexture(program, "basisU", this->Basis[0][Degree % 2]);
-      SetTexture(program, "basisV", this->Basis[1][Degree % 2]);
+      SetTexture(program, "basisU", this->Basis[0][this->Degree % 2]);
+      SetTexture(program, "basisV", this->Basis[1][this->Degree % 2]);
       const auto set = [&](const char* name, int value) {
         if (program->IsUniformUsed(name))
         {
@@ -319,8 +320,8 @@ private:
       set("countU", this->Surface.Count[0]);
       set("countV", this->Surface.Count[1]);
     });
-    this->Basis[0][Degree % 2]->Deactivate();
-    this->Basis[1][Degree % 2]->Deactivate();
+    this->Basis[0][this->Degree % 2]->Deactivate();
+    this->Basis[1][this->Degree % 2]->Deactivate();
     for (vtkNURBSBufferTexture* buffer : { &this->Spans, &this->Knots, &this->Points })
     {
       buffer->Deactivate(this->Window);
@@ -330,6 +331,7 @@ private:
   vtkOpenGLRenderWindow* Window;
   const nurbs::SurfaceTable& Table;
   const nurbs::SurfaceView& Surface;
+  int Degree;
   int Side;
   int Functions; ///< Columns of the textures of basis functions.
   Pass BasisPass, SumPass;
@@ -380,6 +382,7 @@ double MemoryBandwidth()
 
 struct Arguments
 {
+  int Degree = 3;
   std::vector<int> Nets{ 16, 64, 256 }, Outputs{ 128, 256, 512, 1024, 2048, 4096 };
   double Limit = 5.0;
   int Device = -1;
@@ -407,14 +410,14 @@ nlohmann::json Run(const Arguments& a)
   result["rows"] = nlohmann::json::array();
   for (const int net : a.Nets)
   {
-    const nurbs::Surface sheet = Sheet(net);
+    const nurbs::Surface sheet = Sheet(a.Degree, net);
     nurbs::SurfaceTable table;
     table.Add(sheet.View(), nurbs::Box2(nurbs::Vec2(0.0, 0.0), nurbs::Vec2(1.0, 1.0)));
     table.Fill(0, 1);
     double last[2] = { 0.0, 0.0 }; // of the rivals, to tell what would take too long
     for (const int side : a.Outputs)
     {
-      nlohmann::json row = { { "net", net }, { "output", side } };
+      nlohmann::json row = { { "degree", a.Degree }, { "net", net }, { "output", side } };
       row["de_boor"] = ToJson(DeBoor(window, table, side));
       for (const bool local : { false, true })
       {
@@ -440,10 +443,11 @@ int main(int argc, char** argv)
 {
   Arguments arguments;
   CLI::App app{
-    "Times evaluation of bicubic rational surfaces by shaders, positions and normals, and prints\n"
+    "Times evaluation of rational surfaces by shaders, positions and normals, and prints\n"
     "JSON: de_boor is vtkNURBSTileTextures, basis multiplies basis functions with the whole net, \n"
     "basis_local with the control points that count. Control points are sent each time."
   };
+  app.add_option("--degree", arguments.Degree, "In both directions")->capture_default_str();
   app.add_option("--nets", arguments.Nets, "Control points a side");
   app.add_option("--outputs", arguments.Outputs, "Vertices a side, ascending");
   app.add_option("--limit", arguments.Limit, "Seconds over which a run of a rival is left out");

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Evaluation by shaders, de Boor's algorithm beside basis functions, and drawing of car bodies by
-vtkNURBSMapper beside tessellation at the same pixel error. Takes EGL's first device, and names it."""
+vtkNURBSMapper beside tessellation at the same pixel error. EGL's first device is taken, and named.
+"""
 
 import sys
 
@@ -16,43 +17,48 @@ METHODS = {
 RIVALS = {"basis": "whole net", "basis_local": "local"}
 
 
+def rates(row, copy):
+    """The table's line for one surface."""
+    ours = row["de_boor"]
+    rate = ours["vertices"] / ours["seconds"]
+    cells = [str(row["degree"]), f"{row['net']}^2", f"{row['output']}^2", ours["seconds"],
+             ours["vertices"] / 1e6, rate / 1e6,
+             100 * ours["bytes"] / ours["seconds"] / copy]  # fmt: skip
+    for key in RIVALS:
+        if key in row:
+            other = row[key]["vertices"] / row[key]["seconds"]
+            cells += [row[key]["seconds"], other / 1e6, rate / other]
+        else:
+            cells += [None] * 3
+    return cells
+
+
 def evaluation(report, quick, limit):
-    report.text("## Evaluation: bicubic rational surface, positions and normals")
-    command = [bench.program("ShaderEvaluationBenchmark")]
+    report.text("## Evaluation: rational surfaces, positions and normals")
     if quick:
-        command += ["--nets", "16", "64", "--outputs", "128", "512", "--limit", "1"]
-    done = bench.run_json(command, limit)
-    if "error" in done:
-        report.text(f"- {done['error']}")
-        return
-    copy = done["copy"]
-    report.text(
-        f"{done['renderer']}. Copying textures writes {copy / 1e9:.3g} GB/s, copying memory by one "
-        f"thread {done['memory_copy'] / 1e9:.3g} GB/s."
-    )
+        runs = [["--nets", "16", "64", "--outputs", "128", "512", "--limit", "1"]]
+    else:
+        runs = [[], ["--degree", "9", "--nets", "64", "--outputs", "256", "1024"]]
     rows = []
-    for row in done["rows"]:
-        ours = row["de_boor"]
-        cells = [f"{row['net']}^2", f"{row['output']}^2", ours["seconds"], ours["vertices"] / 1e6,
-                 ours["vertices"] / ours["seconds"] / 1e6,
-                 100 * ours["bytes"] / ours["seconds"] / copy]  # fmt: skip
-        for key in RIVALS:
-            rival = row.get(key)
-            if not rival:
-                cells += [None] * 3
-                continue
-            rate = rival["vertices"] / rival["seconds"]
-            cells += [rival["seconds"], rate / 1e6,
-                      ours["vertices"] / ours["seconds"] / rate]  # fmt: skip
-        rows.append(cells)
+    for options in runs:
+        done = bench.run_json([bench.program("ShaderEvaluationBenchmark"), *options], limit)
+        if "error" in done:
+            report.text(f"- {done['error']}")
+            continue
+        if not rows:
+            report.text(
+                f"{done['renderer']}. Copying textures writes {done['copy'] / 1e9:.3g} GB/s, "
+                f"copying memory by one thread {done['memory_copy'] / 1e9:.3g} GB/s."
+            )
+        rows += [rates(row, done["copy"]) for row in done["rows"]]
     rivals = [
         f"{name}: {figure}"
         for name in RIVALS.values()
         for figure in ("s", "M vertices/s", "de Boor over it")
     ]
     report.table(
-        ["control points", "output", "de Boor: s", "M vertices", "M vertices/s", "% of copying",
-         *rivals],
+        ["degree", "control points", "output", "de Boor: s", "M vertices", "M vertices/s",
+         "% of copying", *rivals],
         rows,
     )  # fmt: skip
 
