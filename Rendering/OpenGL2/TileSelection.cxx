@@ -245,7 +245,7 @@ private:
   const TileView& View;
   TileSelection& Selection;
   Interval Domain[2];
-  double Pixels; ///< Of a unit of length at depth 1.
+  double Pixels;            ///< Of a unit of length at depth 1.
   std::vector<int> Logs[2]; ///< Of each column and row; -1: nothing of it is seen.
 };
 
