@@ -210,6 +210,11 @@ double Price(std::size_t all, std::size_t ordered)
 struct Ends
 {
   std::vector<double> Lows, Highs;
+  explicit Ends(std::size_t count)
+  {
+    this->Lows.reserve(count);
+    this->Highs.reserve(count);
+  }
   void Add(const TrimPiece& piece, int dir)
   {
     this->Lows.push_back(piece.Low[dir]);
@@ -237,8 +242,12 @@ struct Ends
 class Census
 {
 public:
-  Census(const Box2& cell)
+  Census(const Box2& cell, std::size_t count)
     : Cell(cell)
+    , All{ Ends(count), Ends(count) }
+    , FromBottom(count)
+    , ToTop(count)
+    , Through(count)
   {}
 
   void Add(const TrimPiece& piece)
@@ -323,7 +332,7 @@ TrimTree::SplitPlane TrimTree::BestSplit(const Box2& cell, const Content& conten
   {
     return best;
   }
-  Census census(cell);
+  Census census(cell, content.References.size());
   for (const std::int32_t reference : content.References)
   {
     census.Add(this->PieceOf(reference));

@@ -234,7 +234,8 @@ void vtkNURBSModelView::Internals::CheckCells(vtkUnstructuredGrid* grid)
   }
 }
 
-vtkNURBSModelView::vtkNURBSModelView(vtkUnstructuredGrid* grid)
+vtkNURBSModelView::vtkNURBSModelView(
+  vtkUnstructuredGrid* grid, const nurbs::AssembleOptions& options)
   : Content(new Internals)
 {
   if (!grid)
@@ -243,7 +244,7 @@ vtkNURBSModelView::vtkNURBSModelView(vtkUnstructuredGrid* grid)
   }
   Internals& content = *this->Content;
   content.Collect(grid);
-  content.Assembled = nurbs::AssembleModel(content.Arrays, nurbs::AssembleOptions(), SMPFor);
+  content.Assembled = nurbs::AssembleModel(content.Arrays, options, SMPFor);
   std::vector<ModelProblem>& problems = content.Assembled.Problems;
   problems.insert(problems.begin(), content.ArrayProblems.begin(), content.ArrayProblems.end());
   content.CheckCells(grid);

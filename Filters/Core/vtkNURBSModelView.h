@@ -23,7 +23,8 @@ class VTKNURBSFILTERSCORE_EXPORT vtkNURBSModelView
 public:
   /// Checks and assembles the grid, in parallel over its faces (vtkSMPTools). Never throws on bad
   /// data: see GetProblems. A null grid gives an empty model.
-  explicit vtkNURBSModelView(vtkUnstructuredGrid* grid);
+  explicit vtkNURBSModelView(
+    vtkUnstructuredGrid* grid, const nurbs::AssembleOptions& options = nurbs::AssembleOptions());
   ~vtkNURBSModelView();
   vtkNURBSModelView(const vtkNURBSModelView&) = delete;
   vtkNURBSModelView& operator=(const vtkNURBSModelView&) = delete;

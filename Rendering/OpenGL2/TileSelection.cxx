@@ -59,6 +59,7 @@ public:
     , View(view)
     , Selection(selection)
     , Domain{ Surface.View.Domain(0), Surface.View.Domain(1) }
+    , Pixels(PixelsPerUnit(view, 1.0))
   {}
 
   void Select()
@@ -158,8 +159,8 @@ private:
       return;
     }
     const auto& second = this->Surface.Patch(i, j).Second;
-    const auto pixels = [&](double w) { return PixelsPerUnit(this->View, w); };
-    double scale = pixels(std::max(LeastDepth(this->View.ModelToClip, box), this->View.Near));
+    double scale =
+      this->Pixels / std::max(LeastDepth(this->View.ModelToClip, box), this->View.Near);
     const int coarse[2] = { Tile::MaxLog, Tile::MaxLog };
     if (Bow(second, coarse) * scale > this->View.PixelError)
     {
@@ -168,7 +169,7 @@ private:
       {
         return;
       }
-      scale = pixels(w);
+      scale = this->Pixels / w;
     }
     const double tolerance = this->View.PixelError / scale;
     int log[2] = { LogFor(second[0], tolerance), LogFor(second[2], tolerance) };
@@ -245,6 +246,7 @@ private:
   const TileView& View;
   TileSelection& Selection;
   Interval Domain[2];
+  double Pixels;            ///< Of a unit of length at depth 1.
   std::vector<int> Logs[2]; ///< Of each column and row; -1: nothing of it is seen.
 };
 
@@ -259,15 +261,23 @@ bool Tile::operator==(const Tile& o) const
 
 double PixelsPerUnit(const TileView& view, double w)
 {
-  // d(x / w) = (m_x - x / w m_w) d / w, and |x / w| <= 1 for what is seen.
+  // A step d from a point at (x, y) of the picture, -1 to 1, moves it by
+  //   ((m_x - x m_w) d, (m_y - y m_w) d) / w
+  // halves of the picture. The norm of that map is convex in (x, y): greatest at a corner.
   const Eigen::Matrix4d& m = view.ModelToClip;
-  const double depth = m.row(3).head<3>().norm();
   double most = 0.0;
-  for (int k = 0; k < 2; ++k)
+  for (int corner = 0; corner < 4; ++corner)
   {
-    most = std::max(most, 0.5 * view.Size[k] * std::hypot(m.row(k).head<3>().norm(), depth));
+    Vec3 row[2];
+    for (int k = 0; k < 2; ++k)
+    {
+      const double place = (corner >> k) & 1 ? 1.0 : -1.0;
+      row[k] = 0.5 * view.Size[k] * (m.row(k) - place * m.row(3)).head<3>().transpose();
+    }
+    const double a = row[0].squaredNorm(), b = row[0].dot(row[1]), c = row[1].squaredNorm();
+    most = std::max(most, 0.5 * (a + c + std::hypot(a - c, 2.0 * b))); // the norm's square
   }
-  return most / w;
+  return std::sqrt(most) / w;
 }
 
 void SelectTiles(

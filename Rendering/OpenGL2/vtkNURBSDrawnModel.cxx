@@ -113,6 +113,17 @@ nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
   return box.intersection(whole);
 }
 
+// Checks what drawing needs: edges' curves are not drawn, and loops that were sound before points
+// moved are sound.
+std::shared_ptr<const vtkNURBSModelView> ViewOf(
+  vtkUnstructuredGrid* grid, const vtkNURBSModelView* before)
+{
+  nurbs::AssembleOptions options;
+  options.CheckEdges = false;
+  options.CheckLoops = !before || !before->DescribeFaceErrors().empty();
+  return std::make_shared<const vtkNURBSModelView>(grid, options);
+}
+
 } // namespace
 
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
@@ -135,12 +146,13 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
     }
     return Change::None;
   }
+  const vtkNURBSParallelScope parallel;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
     Leaf& leaf = leaves[i];
     leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
       ? this->Leaves[i].View
-      : vtkNURBSModel::View(leaf.Grid);
+      : ViewOf(leaf.Grid, sameStructure ? this->Leaves[i].View.get() : nullptr);
     leaf.First =
       i == 0 ? 0 : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
   }

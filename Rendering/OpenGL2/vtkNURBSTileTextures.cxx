@@ -219,6 +219,7 @@ void vtkNURBSTileTextures::MakeAtlas(vtkOpenGLRenderWindow* window, int pagesX, 
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
     texture->Allocate2D(width, height, 4, VTK_FLOAT);
   };
+  this->AtlasBuffer->ReleaseGraphicsResources(window); // it would hold on to the old textures
   make(this->Positions, this->Atlas.Width(), this->Atlas.Height());
   make(this->Normals, this->Atlas.Width(), this->Atlas.Height());
   if (!this->Rows->GetHandle())

@@ -37,7 +37,7 @@ offence 'a public VTK header may not show OpenCASCADE' < <(
   list | grep -E '/vtk[^/]*\.h$' | including "$opencascade")
 offence 'CGAL belongs in .cxx files' < <(list | grep -E '\.h$' | including "$cgal")
 offence 'OpenGL belongs in Rendering' < <(
-  list | grep -vE '^(Testing/)?Rendering/' | including "$opengl")
+  list | grep -vE '^(Testing/)?Rendering/|^Testing/Benchmarks/' | including "$opengl")
 offence 'Qt belongs in files named pq*' < <(list | grep -vE '/pq[^/]*$' | including "$qt")
 offence 'rooms of Filters may include only Core and themselves' < <(
   for room in Sources Tessellation Visibility Wavelet Deformation; do

@@ -14,17 +14,21 @@ flat in ivec4 tileBlockPoint;
 
 //VTK::Output::Dec
 
-// d[0 .. DEGREE] are the points of the span; value and derivative at t of the span.
+// d[0 .. DEGREE] are the points of the span; value and derivative at t of the span. Loops have
+// constant counts: compilers unroll them then, and keep d in registers.
 void deBoor(inout vec4 d[DEGREE + 1], int block, float t, out vec4 derivative)
 {
   for (int r = 1; r < DEGREE; ++r)
   {
-    for (int j = DEGREE; j >= r; --j)
+    for (int j = DEGREE; j > 0; --j)
     {
-      float low = texelFetch(nurbsKnots, block + 3 + j).r;
-      float high = texelFetch(nurbsKnots, block + 4 + j - r + DEGREE).r;
-      float a = (t - low) / (high - low);
-      d[j] = mix(d[j - 1], d[j], a);
+      if (j >= r)
+      {
+        float low = texelFetch(nurbsKnots, block + 3 + j).r;
+        float high = texelFetch(nurbsKnots, block + 4 + j - r + DEGREE).r;
+        float a = (t - low) / (high - low);
+        d[j] = mix(d[j - 1], d[j], a);
+      }
     }
   }
   derivative = float(DEGREE) * (d[DEGREE] - d[DEGREE - 1]);

@@ -20,25 +20,34 @@ struct nurbsJet
 };
 
 // Basis functions of a span at t and their first and second derivatives, by the triangle of Cox and
-// de Boor on the span's own knots.
+// de Boor on the span's own knots. Here and below, loops have a constant count: compilers unroll them
+// then, and keep arrays in registers.
 void nurbsBasis(int block, int degree, float t, out float n[NURBS_MAX_DEGREE + 1],
   out float d[NURBS_MAX_DEGREE + 1], out float dd[NURBS_MAX_DEGREE + 1])
 {
   // The functions of degree - 1 and degree - 2 give the derivatives of those of degree.
-  for (int k = 0; k <= degree; ++k)
+  for (int k = 0; k <= NURBS_MAX_DEGREE; ++k)
   {
     n[k] = 0.0;
     d[k] = 0.0;
     dd[k] = 0.0;
   }
   n[0] = 1.0;
-  for (int r = 1; r <= degree; ++r)
+  for (int r = 1; r <= NURBS_MAX_DEGREE; ++r)
   {
+    if (r > degree)
+    {
+      break;
+    }
     // Knots k[degree - r .. degree + r - 1] bound the functions of degree r.
     int first = block + 4 + degree - r;
     float saved = 0.0, savedD = 0.0, savedDD = 0.0;
-    for (int j = 0; j < r; ++j)
+    for (int j = 0; j < NURBS_MAX_DEGREE; ++j)
     {
+      if (j >= r)
+      {
+        break;
+      }
       float low = texelFetch(nurbsKnots, first + j).r;
       float high = texelFetch(nurbsKnots, first + j + r).r;
       float width = 1.0 / (high - low);
@@ -66,12 +75,20 @@ nurbsJet nurbsEvaluate(nurbsTileInfo tile, vec2 t)
   nurbsBasis(tile.block.x, tile.degree.x, t.x, nu, du, ddu);
   nurbsBasis(tile.block.y, tile.degree.y, t.y, nv, dv, ddv);
   nurbsJet jet = nurbsJet(vec4(0.0), vec4(0.0), vec4(0.0));
-  for (int j = 0; j <= tile.degree.y; ++j)
+  for (int j = 0; j <= NURBS_MAX_DEGREE; ++j)
   {
+    if (j > tile.degree.y)
+    {
+      break;
+    }
     vec4 row = vec4(0.0), rowU = vec4(0.0);
     int first = tile.point + j * tile.stride;
-    for (int i = 0; i <= tile.degree.x; ++i)
+    for (int i = 0; i <= NURBS_MAX_DEGREE; ++i)
     {
+      if (i > tile.degree.x)
+      {
+        break;
+      }
       vec4 p = texelFetch(nurbsPoints, first + i);
       row += nu[i] * p;
       rowU += du[i] * p;

@@ -22,10 +22,18 @@ void nurbsSecond(out vec4 huu, out vec4 huv, out vec4 hvv)
   nurbsBasis(tile.block.x, tile.degree.x, nurbsHere.t.x, nu, du, ddu);
   nurbsBasis(tile.block.y, tile.degree.y, nurbsHere.t.y, nv, dv, ddv);
   huu = huv = hvv = vec4(0.0);
-  for (int j = 0; j <= tile.degree.y; ++j)
+  for (int j = 0; j <= NURBS_MAX_DEGREE; ++j)
   {
-    for (int i = 0; i <= tile.degree.x; ++i)
+    if (j > tile.degree.y)
     {
+      break;
+    }
+    for (int i = 0; i <= NURBS_MAX_DEGREE; ++i)
+    {
+      if (i > tile.degree.x)
+      {
+        break;
+      }
       vec4 p = texelFetch(nurbsPoints, tile.point + j * tile.stride + i);
       huu += ddu[i] * nv[j] * p;
       huv += du[i] * dv[j] * p;
