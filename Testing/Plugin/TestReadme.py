@@ -1,4 +1,4 @@
-"""Runs the Python pipeline that README.md shows, as it stands there."""
+"""Runs the Python pipelines that README.md shows, one after the other, as they stand there."""
 
 import os
 import re
@@ -7,10 +7,12 @@ import tempfile
 from pathlib import Path
 
 readme = Path(sys.argv[1]).read_text(encoding="utf-8")
-(pipeline,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
+pipelines = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    exec(compile(pipeline, "README.md", "exec"))
+    names = {}
+    for pipeline in pipelines:
+        exec(compile(pipeline, "README.md", "exec"), names)
     (mesh,) = Path(folder).glob("*.vtpc")
     from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
@@ -19,4 +21,5 @@ with tempfile.TemporaryDirectory() as folder:
     check.Update()
     triangles = check.GetOutput().GetNumberOfCells()
     assert triangles > 1000, triangles
+    assert names["mapper"].GetNumberOfTriangles() > 1000
 print("README: the pipeline wrote", triangles, "triangles")
