@@ -142,6 +142,23 @@ bool vtkNURBSModel::IsModel(vtkUnstructuredGrid* grid)
     grid->GetCellData()->HasArray(names::KnotStart) && grid->GetFieldData()->HasArray(names::Knots);
 }
 
+bool vtkNURBSModel::IsTrimArray(const char* name)
+{
+  for (const char* trim : { names::LoopStart, names::LoopCount, names::LoopCurveStart,
+         names::LoopCurveCount, names::TrimCurveDegree, names::TrimCurveKnotStart,
+         names::TrimCurvePointStart, names::TrimCurvePointCount, names::TrimCurveEdgeId,
+         names::TrimCurveReversed, names::TrimPoints, names::TrimKnots, names::EdgeDegree,
+         names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
+         names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints })
+  {
+    if (name && !strcmp(name, trim))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool vtkNURBSModel::IsStructureArray(const char* name)
 {
   for (const char* structure : { names::Degree, names::NetSize, names::KnotStart, names::LoopStart,

@@ -111,6 +111,12 @@ public:
   static bool IsStructureArray(const char* name);
 
   /**
+   * True if the array `name`, of cells or of the field data, describes loops, trim curves or edges; what
+   * is left of a model's structure describes surfaces.
+   */
+  static bool IsTrimArray(const char* name);
+
+  /**
    * Copies the faces' attributes (all cell arrays but those of IsStructureArray) to `target`: tuple
    * i of the target is that of cell `faces[i]`. Arrays that do not have one tuple a cell are left
    * out (Validate warns of them). FaceId is made from cell indices if there is none.

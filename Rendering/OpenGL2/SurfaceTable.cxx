@@ -87,8 +87,9 @@ int SurfaceTable::Add(const SurfaceView& view, const Box2& used)
   surface.FirstPoint = static_cast<int>(this->Points.size() / 4);
   for (int dir = 0; dir < 2; ++dir)
   {
-    this->AddSpans(surface, dir, { used.min()[dir], used.max()[dir] });
+    this->AddSpans(surface, dir);
   }
+  FindUsed(surface, used);
   this->Points.resize(this->Points.size() + 4 * texels);
   this->Surfaces.push_back(std::move(surface));
   return this->Size() - 1;
@@ -100,7 +101,7 @@ int SurfaceTable::AddNothing()
   return this->Size() - 1;
 }
 
-void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
+void SurfaceTable::AddSpans(TableSurface& surface, int dir)
 {
   const SurfaceView& view = surface.View;
   const KnotView& knots = view.Knots[dir];
@@ -108,7 +109,6 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
   const Interval domain = view.Domain(dir);
   surface.FirstBlock[dir] = static_cast<int>(this->Knots.size());
   std::vector<Interval>& spans = surface.Spans[dir];
-  int first = -1, end = 0;
   for (int k = degree; k < view.Count[dir]; ++k)
   {
     const double length = knots[k + 1] - knots[k];
@@ -118,11 +118,6 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
     }
     const Interval share = { (knots[k] - domain.Min) / domain.Length(),
       (knots[k + 1] - domain.Min) / domain.Length() };
-    if (share.Max > used.Min && share.Min < used.Max)
-    {
-      first = first < 0 ? static_cast<int>(spans.size()) : first;
-      end = static_cast<int>(spans.size()) + 1;
-    }
     spans.push_back(share);
     this->Knots.push_back(static_cast<float>(share.Min));
     this->Knots.push_back(static_cast<float>(share.Length()));
@@ -137,8 +132,38 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir, Interval used)
   {
     throw Error("more than 65535 knot spans in a direction");
   }
-  surface.Used[dir][0] = std::max(first, 0);
-  surface.Used[dir][1] = end;
+}
+
+// Returns whether it is other than before.
+bool SurfaceTable::FindUsed(TableSurface& surface, const Box2& used)
+{
+  bool changed = false;
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const std::vector<Interval>& spans = surface.Spans[dir];
+    int first = 0, end = static_cast<int>(spans.size());
+    while (first < end && !(spans[first].Max > used.min()[dir]))
+    {
+      ++first;
+    }
+    while (end > first && !(spans[end - 1].Min < used.max()[dir]))
+    {
+      --end;
+    }
+    changed = changed || first != surface.Used[dir][0] || end != surface.Used[dir][1];
+    surface.Used[dir][0] = first;
+    surface.Used[dir][1] = end;
+  }
+  return changed;
+}
+
+void SurfaceTable::Use(int index, const Box2& used)
+{
+  TableSurface& surface = this->Surfaces[index];
+  if (surface.IsDrawable() && FindUsed(surface, used))
+  {
+    this->FillBounds(surface);
+  }
 }
 
 void SurfaceTable::Fill(int first, int last)

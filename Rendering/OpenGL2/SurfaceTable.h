@@ -68,6 +68,9 @@ public:
   /// they are the same in single precision. Thread-safe for distinct surfaces.
   bool Move(int index, const SurfaceView& surface);
 
+  /// Tells what part of the domain trims leave now, as Add did. Thread-safe for distinct surfaces.
+  void Use(int index, const Box2& used);
+
   int Size() const { return static_cast<int>(this->Surfaces.size()); }
   const TableSurface& operator[](int index) const { return this->Surfaces[index]; }
 
@@ -79,7 +82,8 @@ public:
   const std::vector<float>& GetKnots() const { return this->Knots; }
 
 private:
-  void AddSpans(TableSurface& surface, int dir, Interval used);
+  void AddSpans(TableSurface& surface, int dir);
+  static bool FindUsed(TableSurface& surface, const Box2& used);
   bool FillPoints(TableSurface& surface);
   void FillBounds(TableSurface& surface);
   void FillSides(TableSurface& surface, const SurfaceBound& bound);

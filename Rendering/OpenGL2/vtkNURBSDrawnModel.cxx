@@ -23,22 +23,27 @@ void Append(Stamps& stamps, vtkObject* object)
   stamps.emplace_back(object, object ? object->GetMTime() : 0);
 }
 
-// Identity and age of the arrays that describe surfaces, loops and edges.
-Stamps StructureOf(vtkUnstructuredGrid* grid)
+// Identity and age of the arrays that describe surfaces, or those of loops and edges.
+Stamps StructureOf(vtkUnstructuredGrid* grid, bool trims)
 {
   Stamps stamps;
-  Append(stamps, grid->GetCells());
+  Append(stamps, trims ? nullptr : grid->GetCells());
   for (int i = 0; i < grid->GetCellData()->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = grid->GetCellData()->GetAbstractArray(i);
-    if (array->GetName() && vtkNURBSModel::IsStructureArray(array->GetName()))
+    if (vtkNURBSModel::IsStructureArray(array->GetName()) &&
+      vtkNURBSModel::IsTrimArray(array->GetName()) == trims)
     {
       Append(stamps, array);
     }
   }
   for (int i = 0; i < grid->GetFieldData()->GetNumberOfArrays(); ++i)
   {
-    Append(stamps, grid->GetFieldData()->GetAbstractArray(i));
+    vtkAbstractArray* array = grid->GetFieldData()->GetAbstractArray(i);
+    if (vtkNURBSModel::IsTrimArray(array->GetName()) == trims)
+    {
+      Append(stamps, array);
+    }
   }
   return stamps;
 }
@@ -63,7 +68,8 @@ std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input, bool& other
       vtkNURBSDrawnModel::Leaf leaf;
       leaf.Grid = grid;
       leaf.FlatIndex = index;
-      leaf.Structure = StructureOf(grid);
+      leaf.Surfaces = StructureOf(grid, false);
+      leaf.Trims = StructureOf(grid, true);
       leaf.Points = PointsOf(grid);
       leaves.push_back(std::move(leaf));
     }
@@ -131,28 +137,31 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
   std::vector<Leaf> leaves = LeavesOf(input, this->OtherData);
   this->Moved.clear();
   this->Warnings.clear();
-  bool sameStructure = leaves.size() == this->Leaves.size(), samePoints = true;
-  for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
+  bool sameSurfaces = leaves.size() == this->Leaves.size(), samePoints = true, sameTrims = true;
+  for (std::size_t i = 0; i < leaves.size() && sameSurfaces; ++i)
   {
-    sameStructure = leaves[i].Structure == this->Leaves[i].Structure &&
+    sameSurfaces = leaves[i].Surfaces == this->Leaves[i].Surfaces &&
       leaves[i].FlatIndex == this->Leaves[i].FlatIndex;
     samePoints = samePoints && leaves[i].Points == this->Leaves[i].Points;
+    sameTrims = sameTrims && leaves[i].Trims == this->Leaves[i].Trims;
   }
-  if (sameStructure && samePoints)
+  Change change;
+  if (sameSurfaces && samePoints && sameTrims)
   {
     for (std::size_t i = 0; i < leaves.size(); ++i)
     {
       this->Leaves[i].Grid = leaves[i].Grid; // its attributes may be new
     }
-    return Change::None;
+    return change;
   }
   const vtkNURBSParallelScope parallel;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
     Leaf& leaf = leaves[i];
-    leaf.View = sameStructure && leaf.Points == this->Leaves[i].Points
-      ? this->Leaves[i].View
-      : ViewOf(leaf.Grid, sameStructure ? this->Leaves[i].View.get() : nullptr);
+    const Leaf* before = sameSurfaces ? &this->Leaves[i] : nullptr;
+    leaf.View = before && leaf.Points == before->Points && leaf.Trims == before->Trims
+      ? before->View
+      : ViewOf(leaf.Grid, before && leaf.Trims == before->Trims ? before->View.get() : nullptr);
     leaf.First =
       i == 0 ? 0 : leaves[i - 1].First + static_cast<int>(leaves[i - 1].Model().Faces.size());
   }
@@ -161,32 +170,41 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
   {
     faces += static_cast<int>(leaf.Model().Faces.size());
   }
-  sameStructure = sameStructure && faces == this->Table.Size();
+  sameSurfaces = sameSurfaces && faces == this->Table.Size();
   // A face that has lost its surface, or has one now, changes more than points.
-  for (std::size_t i = 0; i < leaves.size() && sameStructure; ++i)
+  for (std::size_t i = 0; i < leaves.size() && sameSurfaces; ++i)
   {
-    for (std::size_t f = 0; f < leaves[i].Model().Faces.size() && sameStructure; ++f)
+    for (std::size_t f = 0; f < leaves[i].Model().Faces.size() && sameSurfaces; ++f)
     {
-      sameStructure = (leaves[i].Model().Faces[f].Geometry.Count[0] > 0) ==
+      sameSurfaces = (leaves[i].Model().Faces[f].Geometry.Count[0] > 0) ==
         this->Table[leaves[i].First + static_cast<int>(f)].IsDrawable();
     }
   }
   this->Leaves = std::move(leaves);
-  if (!sameStructure)
+  change.Surfaces = !sameSurfaces;
+  change.Points = sameSurfaces && !samePoints;
+  change.Trims = sameSurfaces && !sameTrims;
+  try
   {
-    try
+    if (change.Surfaces)
     {
       this->Rebuild();
     }
-    catch (const nurbs::Error&)
+    if (change.Points)
     {
-      this->Table = nurbs::SurfaceTable();
-      throw;
+      this->Move();
     }
-    return Change::Surfaces;
+    if (change.Trims)
+    {
+      this->RebuildTrims();
+    }
   }
-  this->Move();
-  return Change::Points;
+  catch (const nurbs::Error&)
+  {
+    this->Table = nurbs::SurfaceTable();
+    throw;
+  }
+  return change;
 }
 
 void vtkNURBSDrawnModel::Rebuild()
@@ -217,6 +235,26 @@ void vtkNURBSDrawnModel::Rebuild()
   vtkNURBSParallelFor(0, this->Table.Size(), [this](std::int64_t first, std::int64_t last) {
     this->Table.Fill(static_cast<int>(first), static_cast<int>(last));
   });
+}
+
+void vtkNURBSDrawnModel::RebuildTrims()
+{
+  this->Trims = nurbs::TrimTexels();
+  for (const Leaf& leaf : this->Leaves)
+  {
+    const nurbs::Model& model = leaf.Model();
+    vtkNURBSParallelFor(
+      0, static_cast<std::int64_t>(model.Faces.size()), [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t f = first; f < last; ++f)
+        {
+          if (model.Faces[f].Geometry.Count[0] > 0)
+          {
+            this->Table.Use(leaf.First + static_cast<int>(f), UsedPart(model, model.Faces[f]));
+          }
+        }
+      });
+    this->AddTrims(nurbs::TrimIndex(model, vtkNURBSParallelFor));
+  }
 }
 
 void vtkNURBSDrawnModel::AddTrims(const nurbs::TrimIndex& index)

@@ -5,7 +5,7 @@
  *
  * The faces of a model, or of all models of a composite data set in the order of its iterator, are
  * one list of surfaces. Update compares with what was there before, and tells apart what changed:
- * control points alone (which of the surfaces moved), or knots, nets or trims. Private to this module.
+ * control points alone (which of the surfaces moved), trims, or knots and nets. Private to this module.
  */
 #ifndef vtkNURBSDrawnModel_h
 #define vtkNURBSDrawnModel_h
@@ -26,11 +26,13 @@ class vtkDataObject;
 class vtkNURBSDrawnModel
 {
 public:
-  enum class Change
+  /// What is other than at the last Update.
+  struct Change
   {
-    None,
-    Points,  ///< Control points or weights of GetMoved().
-    Surfaces ///< Anything: the tables are new.
+    bool Points = false;   ///< Control points or weights of GetMoved().
+    bool Trims = false;    ///< GetTrims() are new, and edges' tolerances.
+    bool Surfaces = false; ///< All is new.
+    bool Any() const { return this->Points || this->Trims || this->Surfaces; }
   };
 
   /// One model of the input.
@@ -40,7 +42,8 @@ public:
     unsigned int FlatIndex = 0; ///< In the composite data set; 0: there is none.
     int First = 0;              ///< Its first surface.
     std::shared_ptr<const vtkNURBSModelView> View;
-    std::vector<std::pair<const void*, vtkMTimeType>> Structure;
+    std::vector<std::pair<const void*, vtkMTimeType>> Surfaces;
+    std::vector<std::pair<const void*, vtkMTimeType>> Trims;
     std::vector<std::pair<const void*, vtkMTimeType>> Points;
     const nurbs::Model& Model() const { return this->View->GetModel(); }
   };
@@ -68,6 +71,7 @@ public:
 
 private:
   void Rebuild();
+  void RebuildTrims();
   void AddTrims(const nurbs::TrimIndex& index);
   void Move();
 

@@ -4,6 +4,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -29,6 +30,7 @@
 #include "vtkTimerLog.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVersionMacros.h"
 #include "vtk_glew.h"
 
 #include <algorithm>
@@ -44,6 +46,16 @@ int Coarser(int shape, int levels)
 {
   constexpr int Row = nurbs::Tile::MaxLog + 1;
   return std::max(shape % Row - levels, 0) + Row * std::max(shape / Row - levels, 0);
+}
+
+// The actor's matrix, from the model's coordinates to the world's.
+void GetModelToWorld(vtkActor* actor, vtkMatrix4x4* matrix)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  actor->GetModelToWorldMatrix(matrix);
+#else
+  actor->GetMatrix(matrix);
+#endif
 }
 
 // The largest tolerance of the edges around a face.
@@ -164,11 +176,9 @@ bool vtkNURBSMapper::UpdateModel()
   try
   {
     const vtkNURBSDrawnModel::Change change = c.Model.Update(input);
-    if (change != vtkNURBSDrawnModel::Change::None)
-    {
-      ++c.ModelVersion;
-    }
-    if (change == vtkNURBSDrawnModel::Change::Surfaces)
+    c.ModelVersion += change.Any();
+    c.TrimsAreSent = c.TrimsAreSent && !change.Trims && !change.Surfaces;
+    if (change.Surfaces)
     {
       c.ModelIsSent = false;
       c.LastError.clear();
@@ -225,42 +235,13 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
 {
   Internals& c = *this->Content;
   auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-  const nurbs::SurfaceTable& table = c.Model.GetTable();
-  if (c.ModelIsSent)
+  std::string error;
+  if (!c.ModelIsSent || !c.TrimsAreSent)
   {
-    std::sort(c.MovedSinceSent.begin(), c.MovedSinceSent.end());
-    c.MovedSinceSent.erase(
-      std::unique(c.MovedSinceSent.begin(), c.MovedSinceSent.end()), c.MovedSinceSent.end());
-    c.Textures.MoveSurfaces(table, c.MovedSinceSent);
-    c.MovedSinceSent.clear();
-    return true;
-  }
-  std::string error = vtkNURBSTileTextures::GetMissingFeature(window);
-  if (error.empty())
-  {
-    std::vector<vtkNURBSTileTextures::SurfaceInfo> infos(table.Size());
-    std::vector<int> ids;
-    for (const vtkNURBSDrawnModel::Leaf& leaf : c.Model.GetLeaves())
+    error = vtkNURBSTileTextures::GetMissingFeature(window);
+    if (error.empty())
     {
-      for (std::size_t f = 0; f < leaf.Model().Faces.size(); ++f)
-      {
-        const std::size_t index = leaf.First + f;
-        infos[index].Reversed = leaf.Model().Faces[f].Reversed;
-        infos[index].Trim = c.Model.GetTrims().FaceStart[index];
-        infos[index].Tolerance = ToleranceOf(leaf.Model(), leaf.Model().Faces[f]);
-        ids.insert(ids.end(), { static_cast<int>(f), static_cast<int>(leaf.FlatIndex), 0, 0 });
-      }
-    }
-    const nurbs::TrimTexels& trims = c.Model.GetTrims();
-    if (!c.Textures.SetTable(table, infos))
-    {
-      error = c.Textures.GetError();
-    }
-    else if (!c.TrimPoints.Upload(trims.Points.data(), 4 * trims.Points.size()) ||
-      !c.TrimRecords.Upload(trims.Records.data(), 4 * trims.Records.size()) ||
-      !c.FaceIds.Upload(ids.data(), 4 * ids.size()))
-    {
-      error = "the device can't hold this model's trimming curves";
+      error = this->SendModel();
     }
   }
   if (!error.empty())
@@ -272,10 +253,50 @@ bool vtkNURBSMapper::UpdateTextures(vtkRenderer* renderer)
     }
     return false;
   }
+  std::sort(c.MovedSinceSent.begin(), c.MovedSinceSent.end());
+  c.MovedSinceSent.erase(
+    std::unique(c.MovedSinceSent.begin(), c.MovedSinceSent.end()), c.MovedSinceSent.end());
+  c.Textures.MoveSurfaces(c.Model.GetTable(), c.MovedSinceSent);
   c.MovedSinceSent.clear();
-  c.LooksAreSent = false;
-  c.ModelIsSent = true;
   return true;
+}
+
+// Sends surfaces and trims, or trims alone. Returns why the device can't hold them; "" if it can.
+std::string vtkNURBSMapper::SendModel()
+{
+  Internals& c = *this->Content;
+  const nurbs::SurfaceTable& table = c.Model.GetTable();
+  const nurbs::TrimTexels& trims = c.Model.GetTrims();
+  std::vector<vtkNURBSTileTextures::SurfaceInfo> infos(table.Size());
+  std::vector<int> ids;
+  for (const vtkNURBSDrawnModel::Leaf& leaf : c.Model.GetLeaves())
+  {
+    for (std::size_t f = 0; f < leaf.Model().Faces.size(); ++f)
+    {
+      const std::size_t index = leaf.First + f;
+      infos[index].Reversed = leaf.Model().Faces[f].Reversed;
+      infos[index].Trim = trims.FaceStart[index];
+      infos[index].Tolerance = ToleranceOf(leaf.Model(), leaf.Model().Faces[f]);
+      ids.insert(ids.end(), { static_cast<int>(f), static_cast<int>(leaf.FlatIndex), 0, 0 });
+    }
+  }
+  if (!(c.ModelIsSent ? c.Textures.SetInfos(table, infos) : c.Textures.SetTable(table, infos)))
+  {
+    return c.Textures.GetError();
+  }
+  if (!c.TrimPoints.Upload(trims.Points.data(), 4 * trims.Points.size()) ||
+    !c.TrimRecords.Upload(trims.Records.data(), 4 * trims.Records.size()) ||
+    (!c.ModelIsSent && !c.FaceIds.Upload(ids.data(), 4 * ids.size())))
+  {
+    return "the device can't hold this model's trimming curves";
+  }
+  if (!c.ModelIsSent)
+  {
+    c.MovedSinceSent.clear();
+    c.LooksAreSent = false;
+  }
+  c.ModelIsSent = c.TrimsAreSent = true;
+  return "";
 }
 
 void vtkNURBSMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
@@ -317,7 +338,7 @@ void vtkNURBSMapper::UpdateCameraShiftScale(vtkRenderer* renderer, vtkActor* act
   Internals& c = *this->Content;
   double focus[4] = { 0.0, 0.0, 0.0, 1.0 };
   renderer->GetActiveCamera()->GetFocalPoint(focus);
-  actor->GetModelToWorldMatrix(this->TempMatrix4);
+  GetModelToWorld(actor, this->TempMatrix4);
   this->TempMatrix4->Invert();
   this->TempMatrix4->MultiplyPoint(focus, focus);
   c.Shift = nurbs::Vec3(focus[0], focus[1], focus[2]) / focus[3];
@@ -351,7 +372,7 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   vtkCamera* camera = renderer->GetActiveCamera();
   nurbs::TileView view;
   vtkNew<vtkMatrix4x4> toClip;
-  actor->GetModelToWorldMatrix(toClip);
+  GetModelToWorld(actor, toClip);
   vtkMatrix4x4::Multiply4x4(
     camera->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0),
     toClip, toClip);
@@ -534,7 +555,7 @@ void vtkNURBSMapper::DeleteObjects(vtkOpenGLRenderWindow* window)
   {
     buffer->Release();
   }
-  c.ModelIsSent = false;
+  c.ModelIsSent = c.TrimsAreSent = false;
   c.StandInIsSent = false;
   c.TilesAreReady = false;
   c.LooksAreSent = false;

@@ -16,7 +16,8 @@
  * picking of cells (a cell is a CAD face) come from vtkOpenGLPolyDataMapper. Colours are those of
  * cell arrays through the lookup table; arrays of control points do not colour.
  *
- * When control points move, only theirs are sent and only their surfaces evaluated again.
+ * When control points move, only theirs are sent and only their surfaces evaluated again; new trims are
+ * sent alone, and nothing is evaluated for them.
  *
  * Needs OpenGL 3.2. Where the device can't do it, a warning tells why, and the model is drawn by
  * vtkNURBSTessellator.
@@ -252,6 +253,7 @@ private:
   bool UpdateModel();
   void UpdateLooks();
   bool UpdateTextures(vtkRenderer* renderer);
+  std::string SendModel();
   bool HasLook(vtkActor* actor);
   bool DrawsExactly(vtkActor* actor);
   std::string GetDefines(vtkActor* actor);

@@ -24,6 +24,7 @@ struct vtkNURBSMapper::Internals
   vtkNURBSDrawnModel Model;
   vtkNew<vtkNURBSContextWatch> Watch; ///< Of the window that the objects on the device belong to.
   bool ModelIsSent = false;
+  bool TrimsAreSent = false;
   std::vector<int> MovedSinceSent;
   vtkMTimeType ModelVersion = 0; ///< Rises with every change of the model.
 

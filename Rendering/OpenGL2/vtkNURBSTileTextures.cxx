@@ -67,7 +67,30 @@ std::string vtkNURBSTileTextures::GetMissingFeature(vtkOpenGLRenderWindow* windo
   return "";
 }
 
+bool vtkNURBSTileTextures::Send(
+  vtkNURBSBufferTexture& buffer, const void* data, std::size_t bytes, const char* what)
+{
+  if (!buffer.Upload(data, bytes))
+  {
+    this->Error = std::string("the device can't hold this model's ") + what;
+    return false;
+  }
+  return true;
+}
+
 bool vtkNURBSTileTextures::SetTable(
+  const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos)
+{
+  const std::vector<float>& points = table.GetPoints();
+  const std::vector<float>& knots = table.GetKnots();
+  this->Atlas.Clear();
+  this->Error.clear();
+  return this->Send(this->Points, points.data(), sizeof(float) * points.size(), "control points") &&
+    this->Send(this->Knots, knots.data(), sizeof(float) * knots.size(), "knots") &&
+    this->SetInfos(table, infos);
+}
+
+bool vtkNURBSTileTextures::SetInfos(
   const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos)
 {
   std::vector<int> surfaces;
@@ -82,19 +105,8 @@ bool vtkNURBSTileTextures::SetTable(
     AppendOrigin(origins, s, infos[i].Tolerance);
   }
   this->Infos = infos;
-  this->Atlas.Clear();
-  this->Error.clear();
-  const auto send = [&](vtkNURBSBufferTexture& buffer, const auto& data, const char* what) {
-    if (this->Error.empty() && !buffer.Upload(data.data(), data.size() * sizeof(data[0])))
-    {
-      this->Error = std::string("the device can't hold this model's ") + what;
-    }
-  };
-  send(this->Points, table.GetPoints(), "control points");
-  send(this->Knots, table.GetKnots(), "knots");
-  send(this->Surfaces, surfaces, "surfaces");
-  send(this->Origins, origins, "surfaces");
-  return this->Error.empty();
+  return this->Send(this->Surfaces, surfaces.data(), sizeof(int) * surfaces.size(), "surfaces") &&
+    this->Send(this->Origins, origins.data(), sizeof(float) * origins.size(), "surfaces");
 }
 
 void vtkNURBSTileTextures::MoveSurfaces(

@@ -55,6 +55,8 @@ public:
 
   /// Sends a table, and forgets all tiles. False, and GetError tells why, if it does not fit.
   bool SetTable(const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos);
+  /// Sends new infos of the surfaces of that table. Tiles stay.
+  bool SetInfos(const nurbs::SurfaceTable& table, const std::vector<SurfaceInfo>& infos);
   /// Sends the moved control points of surfaces (ascending) of that table, and forgets their tiles.
   void MoveSurfaces(const nurbs::SurfaceTable& table, const std::vector<int>& surfaces);
 
@@ -88,6 +90,7 @@ private:
     int Samples[2];
     int Degree[2];
   };
+  bool Send(vtkNURBSBufferTexture& buffer, const void* data, std::size_t bytes, const char* what);
   bool PlaceTiles(vtkOpenGLRenderWindow* window, const std::vector<nurbs::Tile>& sorted,
     const nurbs::SurfaceTable& table, std::vector<Job>& jobs);
   void MakeAtlas(vtkOpenGLRenderWindow* window, int pagesX, int pagesY);
