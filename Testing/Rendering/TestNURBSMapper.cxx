@@ -7,6 +7,7 @@
 #include "vtkCellPicker.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
@@ -625,6 +626,33 @@ TEST(MovedPoints, AreSentAlone)
   const Difference d = Compare(moved, scene.PictureWith(fresh));
   EXPECT_EQ(d.Strange, 0);
   EXPECT_EQ(d.Mean, 0.0);
+}
+
+// New trims are sent, and nothing is evaluated for them.
+TEST(MovedTrims, AreSentAlone)
+{
+  Grid model = Shape(vtkNURBSShapeSource::PLATE);
+  vtkMapperScene scene(model);
+  scene.Picture();
+  vtkNURBSMapper* mapper = scene.Mapper;
+  const vtkIdType allBytes = mapper->GetNumberOfBytesSent();
+  const vtkIdType allVertices = mapper->GetNumberOfEvaluatedVertices();
+  // Holes move a little; the outline stays.
+  vtkDataArray* points = model->GetFieldData()->GetArray("TrimPoints");
+  vtkDataArray* starts = model->GetFieldData()->GetArray("TrimCurvePointStart");
+  for (vtkIdType i = static_cast<vtkIdType>(starts->GetTuple1(4)); i < points->GetNumberOfTuples();
+       ++i)
+  {
+    points->SetComponent(i, 1, points->GetComponent(i, 1) + 0.02);
+  }
+  points->Modified();
+  Picture moved = scene.Picture();
+  EXPECT_GT(mapper->GetNumberOfBytesSent(), allBytes);
+  EXPECT_LT(mapper->GetNumberOfBytesSent() - allBytes, allBytes);
+  EXPECT_EQ(mapper->GetNumberOfEvaluatedVertices(), allVertices);
+  vtkNew<vtkNURBSMapper> fresh;
+  fresh->SetInputData(model);
+  EXPECT_EQ(Compare(moved, scene.PictureWith(fresh)).Mean, 0.0);
 }
 
 } // namespace
