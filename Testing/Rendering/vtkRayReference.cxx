@@ -22,6 +22,20 @@ Eigen::Matrix4d ToClip(vtkRenderer* renderer)
   return result;
 }
 
+// From the near plane to the far one, through a place between -1 and 1 on the screen.
+nurbs::Ray RayThrough(const Eigen::Matrix4d& toModel, double x, double y)
+{
+  const nurbs::Vec4 near = toModel * nurbs::Vec4(x, y, -1.0, 1.0);
+  const nurbs::Vec4 far = toModel * nurbs::Vec4(x, y, 1.0, 1.0);
+  const nurbs::Vec3 start = near.head<3>() / near[3], end = far.head<3>() / far[3];
+  nurbs::Ray ray;
+  ray.Origin = start;
+  ray.Direction = (end - start).normalized();
+  ray.Min = 0.0;
+  ray.Max = (end - start).norm();
+  return ray;
+}
+
 } // namespace
 
 vtkRayReference::vtkRayReference(vtkUnstructuredGrid* grid)
@@ -32,19 +46,7 @@ vtkRayReference::vtkRayReference(vtkUnstructuredGrid* grid)
 nurbs::Ray vtkRayReference::PixelRay(vtkRenderer* renderer, double x, double y) const
 {
   const int* size = renderer->GetSize();
-  const Eigen::Matrix4d toModel = ToClip(renderer).inverse();
-  const auto at = [&](double z) {
-    const nurbs::Vec4 p =
-      toModel * nurbs::Vec4(2.0 * x / size[0] - 1.0, 2.0 * y / size[1] - 1.0, z, 1.0);
-    return nurbs::Vec3(p.head<3>() / p[3]);
-  };
-  const nurbs::Vec3 start = at(-1.0), end = at(1.0);
-  nurbs::Ray ray;
-  ray.Origin = start;
-  ray.Direction = (end - start).normalized();
-  ray.Min = 0.0;
-  ray.Max = (end - start).norm();
-  return ray;
+  return RayThrough(ToClip(renderer).inverse(), 2.0 * x / size[0] - 1.0, 2.0 * y / size[1] - 1.0);
 }
 
 std::vector<vtkRayReference::Pixel> vtkRayReference::Cast(vtkRenderer* renderer) const
@@ -52,11 +54,12 @@ std::vector<vtkRayReference::Pixel> vtkRayReference::Cast(vtkRenderer* renderer)
   const int width = renderer->GetSize()[0], height = renderer->GetSize()[1];
   const Eigen::Matrix4d toClip = ToClip(renderer);
   std::vector<Pixel> pixels(std::size_t(width) * height);
-  renderer->GetSize(); // keeps the size up to date before threads ask
+  const Eigen::Matrix4d toModel = toClip.inverse(); // a camera is not for many threads to ask
   vtkNURBSParallelFor(0, height, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t k = first * width; k < last * width; ++k)
     {
-      const nurbs::Ray ray = this->PixelRay(renderer, k % width + 0.5, k / width + 0.5);
+      const nurbs::Ray ray = RayThrough(
+        toModel, 2.0 * (k % width + 0.5) / width - 1.0, 2.0 * (k / width + 0.5) / height - 1.0);
       nurbs::RayHit hit;
       if (this->Caster.Nearest(ray, hit))
       {
