@@ -60,4 +60,8 @@ struct Model
   std::vector<Vec3> Vertices; ///< Positions where edges meet.
 };
 
+/// The part of a face's domain that its loops reach: the box of their control points, within the
+/// domain; all of the domain without loops.
+Box2 LoopsBox(const Model& model, const Face& face);
+
 } // namespace nurbs

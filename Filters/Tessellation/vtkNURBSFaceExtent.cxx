@@ -13,31 +13,9 @@ namespace
 
 constexpr int Samples = 5;
 
-// The box of a face's loops in its domain, or the domain.
-nurbs::Box2 ParameterBox(const nurbs::Model& model, const nurbs::Face& face)
-{
-  nurbs::Box2 box;
-  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
-  {
-    const nurbs::TrimLoop& loop = model.Loops[l];
-    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
-    {
-      const nurbs::CurveView<2>& curve = model.TrimCurves[c].Geometry;
-      for (int i = 0; i < curve.Count; ++i)
-      {
-        box.extend(curve.Point(i));
-      }
-    }
-  }
-  const nurbs::Interval u = face.Geometry.Domain(0);
-  const nurbs::Interval v = face.Geometry.Domain(1);
-  const nurbs::Box2 domain(nurbs::Vec2(u.Min, v.Min), nurbs::Vec2(u.Max, v.Max));
-  return box.isEmpty() ? domain : box.intersection(domain);
-}
-
 nurbs::Box3 FaceBox(const nurbs::Model& model, const nurbs::Face& face)
 {
-  const nurbs::Box2 uv = ParameterBox(model, face);
+  const nurbs::Box2 uv = nurbs::LoopsBox(model, face);
   nurbs::Box3 box;
   if (uv.isEmpty())
   {

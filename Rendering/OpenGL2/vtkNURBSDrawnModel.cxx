@@ -93,30 +93,15 @@ std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input, bool& other
   return leaves;
 }
 
-// The part of the domain that a face's loops enclose, as shares; all of it without loops.
+// The part of the domain that a face's loops reach, as shares.
 nurbs::Box2 UsedPart(const nurbs::Model& model, const nurbs::Face& face)
 {
-  const nurbs::Box2 whole(nurbs::Vec2(0.0, 0.0), nurbs::Vec2(1.0, 1.0));
-  if (face.LoopCount == 0)
-  {
-    return whole;
-  }
+  const nurbs::Box2 box = nurbs::LoopsBox(model, face);
   const nurbs::Interval u = face.Geometry.Domain(0), v = face.Geometry.Domain(1);
-  nurbs::Box2 box;
-  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
-  {
-    const nurbs::TrimLoop& loop = model.Loops[l];
-    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
-    {
-      const nurbs::CurveView<2>& curve = model.TrimCurves[c].Geometry;
-      for (int i = 0; i < curve.Count; ++i)
-      {
-        const nurbs::Vec2 p = curve.Point(i);
-        box.extend(nurbs::Vec2((p[0] - u.Min) / u.Length(), (p[1] - v.Min) / v.Length()));
-      }
-    }
-  }
-  return box.intersection(whole);
+  const auto share = [&](const nurbs::Vec2& p) {
+    return nurbs::Vec2((p[0] - u.Min) / u.Length(), (p[1] - v.Min) / v.Length());
+  };
+  return box.isEmpty() ? box : nurbs::Box2(share(box.min()), share(box.max()));
 }
 
 // Checks what drawing needs: edges' curves are not drawn, and loops that were sound before points

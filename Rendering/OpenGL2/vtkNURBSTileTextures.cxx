@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSTileTextures.h"
 
+#include "vtkNURBSPassState.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
@@ -243,18 +244,7 @@ void vtkNURBSTileTextures::MakeAtlas(vtkOpenGLRenderWindow* window, int pagesX, 
 
 void vtkNURBSTileTextures::Evaluate(vtkOpenGLRenderWindow* window, std::vector<Job>& jobs)
 {
-  vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglEnableDisable depth(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  vtkOpenGLState::ScopedglColorMask mask(state);
-  for (const GLenum name : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
-  {
-    state->vtkglDisable(name);
-  }
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const vtkNURBSPassState pass(window->GetState());
   this->NoAttributes->Bind();
   // Rows of a batch lie side by side on shelves.
   std::size_t first = 0;

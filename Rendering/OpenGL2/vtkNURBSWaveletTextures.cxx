@@ -2,6 +2,7 @@
 #include "vtkNURBSWaveletTextures.h"
 
 #include "vtkNURBSBufferTexture.h"
+#include "vtkNURBSPassState.h"
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -90,17 +91,7 @@ bool vtkNURBSWaveletTextures::Internals::Run(vtkOpenGLRenderWindow* window, vtkT
     this->Between->Allocate2D(grids->GetWidth(), grids->GetHeight(), 4, VTK_FLOAT);
   }
   vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglEnableDisable depth(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  vtkOpenGLState::ScopedglColorMask mask(state);
-  for (const GLenum name : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
-  {
-    state->vtkglDisable(name);
-  }
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const vtkNURBSPassState pass(state);
   state->PushFramebufferBindings();
   this->NoAttributes->Bind();
   // Analysis takes rows, then columns; synthesis goes back.
