@@ -298,16 +298,3 @@ nurbs::Box3 vtkNURBSDrawnModel::GetBounds(const std::function<bool(int)>& isHidd
   }
   return box;
 }
-
-const vtkNURBSDrawnModel::Leaf& vtkNURBSDrawnModel::LeafOf(int surface) const
-{
-  const auto next = std::upper_bound(this->Leaves.begin(), this->Leaves.end(), surface,
-    [](int s, const Leaf& leaf) { return s < leaf.First; });
-  return *(next - 1);
-}
-
-const nurbs::Face& vtkNURBSDrawnModel::FaceOf(int surface) const
-{
-  const Leaf& leaf = this->LeafOf(surface);
-  return leaf.Model().Faces[surface - leaf.First];
-}

@@ -65,10 +65,6 @@ public:
   /// The highest degree of a surface, in either direction.
   int GetMaxDegree() const { return this->MaxDegree; }
 
-  /// The leaf that a surface belongs to.
-  const Leaf& LeafOf(int surface) const;
-  const nurbs::Face& FaceOf(int surface) const;
-
 private:
   void Rebuild();
   void RebuildTrims();

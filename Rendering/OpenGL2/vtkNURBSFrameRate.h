@@ -20,7 +20,6 @@ public:
 
   /// Whether the next Decide wants to know what this frame takes.
   bool IsMeasuring() const { return this->Measuring; }
-  double GetEconomy() const { return this->Economy; }
   bool LooksForPoints() const { return this->Economy == 0.0; }
   double GetCoarserLevels() const { return this->Economy > 1.0 ? this->Economy - 1.0 : 0.0; }
 
