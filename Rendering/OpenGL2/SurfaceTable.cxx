@@ -137,7 +137,8 @@ void SurfaceTable::AddSpans(TableSurface& surface, int dir)
 // Returns whether it is other than before.
 bool SurfaceTable::FindUsed(TableSurface& surface, const Box2& used)
 {
-  bool changed = false;
+  bool changed = used.min() != surface.Left.min() || used.max() != surface.Left.max();
+  surface.Left = used;
   for (int dir = 0; dir < 2; ++dir)
   {
     const std::vector<Interval>& spans = surface.Spans[dir];
@@ -254,6 +255,44 @@ void SurfaceTable::FillBounds(TableSurface& surface)
       surface.Bounds.extend(patch.Box.min().cast<double>() + surface.Origin);
       surface.Bounds.extend(patch.Box.max().cast<double>() + surface.Origin);
     }
+  }
+  TightenBounds(surface);
+}
+
+// Control points of whole patches can lie far from the part of them that trims leave over; those of
+// that part alone don't.
+void SurfaceTable::TightenBounds(TableSurface& surface)
+{
+  const SurfaceView& view = surface.View;
+  Interval part[2];
+  bool isSmaller = false;
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const Interval domain = view.Domain(dir);
+    const int* used = surface.Used[dir];
+    if (used[0] >= used[1])
+    {
+      return;
+    }
+    const Interval spans = { surface.Spans[dir][used[0]].Min, surface.Spans[dir][used[1] - 1].Max };
+    const Interval left = { std::max(surface.Left.min()[dir], spans.Min),
+      std::min(surface.Left.max()[dir], spans.Max) };
+    isSmaller = isSmaller || left.Length() < 0.95 * spans.Length();
+    if (!(left.Length() > 1e-9))
+    {
+      return;
+    }
+    part[dir] = { domain.Clamp(domain.Min + left.Min * domain.Length()),
+      domain.Clamp(domain.Min + left.Max * domain.Length()) };
+  }
+  if (isSmaller)
+  {
+    Box3 box;
+    for (const Vec3& point : Restrict(view, part[0], part[1]).Points)
+    {
+      box.extend(point);
+    }
+    surface.Bounds = surface.Bounds.intersection(box);
   }
 }
 

@@ -35,7 +35,8 @@ struct TableSurface
   int FirstBlock[2] = { 0, 0 };   ///< Of its spans' blocks in Knots, per direction.
   Vec3 Origin = Vec3::Zero();     ///< What Points are relative to.
   double Radius = -1.0;           ///< Half the diagonal of the control points' box.
-  Box3 Bounds;                    ///< Of the used patches, in model coordinates.
+  Box3 Bounds;                    ///< Of the part that trims leave over, in model coordinates.
+  Box2 Left;                      ///< That part of the domain, as shares.
   std::vector<Interval> Spans[2]; ///< Non-empty knot spans, as shares of the domain.
   bool SidesChanged = false;      ///< By the last Move: blocks of Knots are new.
   int Used[2][2] = { { 0, 0 }, { 0, 0 } }; ///< First and end of the spans that trims leave over.
@@ -86,6 +87,7 @@ private:
   static bool FindUsed(TableSurface& surface, const Box2& used);
   bool FillPoints(TableSurface& surface);
   void FillBounds(TableSurface& surface);
+  static void TightenBounds(TableSurface& surface);
   void FillSides(TableSurface& surface, const SurfaceBound& bound);
 
   std::vector<TableSurface> Surfaces;

@@ -124,6 +124,15 @@ private:
     return box;
   }
 
+  bool IsTrimmedAway(int i, int j, const Part& part) const
+  {
+    const Interval& u = this->Surface.Spans[0][i];
+    const Interval& v = this->Surface.Spans[1][j];
+    const Vec2 low(u.Min + part.U * u.Length(), v.Min + part.V * v.Length());
+    const Vec2 high = low + Vec2(part.A * u.Length(), part.B * v.Length());
+    return !this->Surface.Left.intersects(Box2(low, high));
+  }
+
   // Least depth of what is seen of a part; infinite if nothing is. Parts that reach over much depth
   // are halved, since their least depth alone would refine them too much.
   double SeenDepth(int i, int j, const Part& part, const Box3& box, int depth) const
@@ -213,7 +222,8 @@ private:
         std::ldexp(1.0, std::min(Tile::MaxLog - log[1], 0)) };
       const Part part = { x * tile[0], y * tile[1], std::ldexp(tile[0], left[0]),
         std::ldexp(tile[1], left[1]) };
-      if (IsOutside(this->View.ModelToClip, this->PartBox(i, j, part)))
+      if (this->IsTrimmedAway(i, j, part) ||
+        IsOutside(this->View.ModelToClip, this->PartBox(i, j, part)))
       {
         return;
       }
