@@ -198,7 +198,7 @@ TEST_P(Pictures, AreThoseOfTheExactSurface)
   Grid model = Load(this->GetParam());
   if (!model)
   {
-    GTEST_SKIP() << "Debian's occt-misc is not installed";
+    FAIL() << "Debian's occt-misc, which ./run installs, lacks the file";
   }
   const vtkRayReference reference(model);
   vtkMapperScene scene(model, Size);
@@ -219,12 +219,12 @@ TEST_P(Pictures, AreThoseOfTheExactSurface)
     {
       EXPECT_TRUE(vtkTestImage::Matches(scene.Picture(), PictureName(this->GetParam()), 25.0));
     }
-    // One pixel of 1000 at borders, and a few where outlines, trims or tolerances meet. Enlarged 1000
-    // times, single precision knows a border to some hundredths of a pixel.
-    EXPECT_LE(d.Covered, (zoom > 1.0 ? 0.02 : 0.001) * d.Border + 4);
+    // One pixel of 1000 at borders, and one more. Enlarged 1000 times, single precision knows a border
+    // to some hundredths of a pixel.
+    EXPECT_LE(d.Covered, zoom > 1.0 ? 0.015 * d.Border : 0.001 * d.Border + 1);
     // Faces that overlap within their edges' tolerance may be told apart otherwise when enlarged.
-    EXPECT_LE(d.FarFaces, zoom > 1.0 ? 20 : 0);
-    EXPECT_LE(d.Off, scene.Mapper->GetPixelError());
+    EXPECT_LE(d.FarFaces, zoom > 1.0 ? 10 : 0);
+    EXPECT_LE(d.Off, zoom > 1.0 ? 0.1 : 0.01);
   }
 }
 
