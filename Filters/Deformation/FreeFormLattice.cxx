@@ -188,7 +188,7 @@ struct LatticeKernel
     }
   }
 
-  /// Equation (2), the sum over the control points that reach the spans.
+  /// The sum over the control points that reach the spans.
   template <class Quad, int P>
   static NURBS_INLINE Quad Sum(
     const FreeFormLattice& lattice, const int (&span)[3], const double (&N)[3][MaxDegree + 1])

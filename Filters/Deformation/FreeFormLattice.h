@@ -2,23 +2,24 @@
 /// @file FreeFormLattice.h
 /// @brief Free-form deformation: a lattice of control points bends the space in a box.
 ///
-/// Source: T. W. Sederberg, S. R. Parry, "Free-form deformation of solid geometric models", SIGGRAPH
-/// 1986, sections 3 and 4. A point X of the box has the local coordinates (s, t, u) of equation (1),
-/// 0 to 1 along the box's axes. It moves to equation (2), the trivariate tensor product of the
+/// Source: T. W. Sederberg, S. R. Parry, "Free-form deformation of solid geometric models",
+/// SIGGRAPH 1986. A point X of the box has local coordinates (s, t, u), 0 to 1 along the box's
+/// axes. It moves to sum_ijk N_i(s) N_j(t) N_k(u) P_ijk, the trivariate tensor product of the
 /// lattice's control points. What differs from the paper:
 ///
 /// - The functions are B-splines over uniform clamped knots. They are the paper's Bernstein
 ///   polynomials where the degree is the number of control points less one; a lower degree makes a
 ///   control point move only what is near it.
-/// - At rest, control points are at the Greville abscissae (for Bernstein polynomials: uniform, as in
-///   the paper), so that the lattice at rest moves nothing. What is summed are displacements from
-///   rest: X + sum_ijk N_i(s) N_j(t) N_k(u) d_ijk. A lattice at rest leaves every bit of a point as it
-///   is, and an affine map of the lattice maps points by the same affine map, to round-off.
+/// - At rest, control points are at the Greville abscissae (for Bernstein polynomials: uniform, as
+///   in the paper), so that the lattice at rest moves nothing. What is summed are displacements d
+///   from rest: X + sum_ijk N_i(s) N_j(t) N_k(u) d_ijk. A lattice at rest leaves every bit of a
+///   point as it is, and an affine map of the lattice maps points by the same affine map, to
+///   round-off.
 ///
 /// Points outside the box stay. At a side of the box only its outermost layer of control points
 /// counts. If n layers next to a side rest, the deformation is C^(n-1) across it, for n up to the
-/// degree p, and C^(p-1) for more (the paper's section 4). If the outermost layer moves, points in
-/// the box part from those outside.
+/// degree p, and C^(p-1) for more. If the outermost layer moves, points in the box part from those
+/// outside.
 #pragma once
 
 #include "Types.h"
@@ -52,9 +53,9 @@ struct LatticeMoves
 class FreeFormLattice
 {
 public:
-  /// A lattice at rest. `counts`: 2 to MaxLatticeCount. `degrees`: 1 to count - 1, at most MaxDegree,
-  /// lowered to that; 0: min(3, count - 1). Throws Error for other numbers and for a box that is flat
-  /// or not finite.
+  /// A lattice at rest. `counts`: 2 to MaxLatticeCount. `degrees`: 1 to count - 1, at most
+  /// MaxDegree, lowered to that; 0: min(3, count - 1). Throws Error for other numbers and for a box
+  /// that is flat or not finite.
   FreeFormLattice(const LatticeBox& box, const std::array<int, 3>& counts,
     const std::array<int, 3>& degrees = { { 0, 0, 0 } });
 
@@ -67,8 +68,8 @@ public:
   Vec3 Displacement(std::int64_t index) const;
 
   /// Moves all control points: Size() xyz triples. Points of the `frozen` outermost layers of every
-  /// side stay at rest, whatever is given for them. Throws Error naming the first lattice point that
-  /// is not finite (of all, frozen or not) and changes nothing then.
+  /// side stay at rest, whatever is given for them. Throws Error naming the first lattice point
+  /// that is not finite (of all, frozen or not) and changes nothing then.
   void SetDisplacements(ArrayView<double> xyz, int frozen = 0);
 
   /// The local coordinates (s, t, u) of a point.

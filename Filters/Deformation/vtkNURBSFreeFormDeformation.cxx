@@ -54,8 +54,8 @@ vtkSmartPointer<vtkPoints> NewPoints(vtkIdType count)
   return points;
 }
 
-/// The output becomes a copy of the input that shares all arrays. Returns the models in it, which are
-/// objects of their own.
+/// The output becomes a copy of the input that shares all arrays. Returns the models in it, which
+/// are objects of their own.
 std::vector<vtkUnstructuredGrid*> ShareModels(vtkDataObject* input, vtkDataObject* output)
 {
   output->ShallowCopy(input);
@@ -125,8 +125,8 @@ void CheckDimensions(vtkStructuredGrid* places, const int (&wanted)[3])
   }
 }
 
-/// Adds to the displacements what the places differ from the lattice at rest. Throws nurbs::Error if
-/// they are too many or too few.
+/// Adds to the displacements what the places differ from the lattice at rest. Throws nurbs::Error
+/// if they are too many or too few.
 void AddPlaces(vtkPoints* places, const std::string& where, const nurbs::FreeFormLattice& lattice,
   std::vector<double>& displacements)
 {

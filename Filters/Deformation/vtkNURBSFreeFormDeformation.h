@@ -7,39 +7,40 @@
  * models' control points with it; see FreeFormLattice.h for the mathematics. Surfaces stay NURBS
  * surfaces of the same degrees, knots, weights and trims. Their control points are where the
  * deformation puts them; the surface between them follows as closely as its control net is dense,
- * and exactly where the lattice is moved by an affine map. Faces that share control points, or whose
- * coinciding sides have the same control points, stay together.
+ * and exactly where the lattice is moved by an affine map. Faces that share control points, or
+ * whose coinciding sides have the same control points, stay together.
  *
  * Input 0: a model of vtkNURBSModel (any vtkUnstructuredGrid is deformed the same way), or a
  * composite data set of models: one lattice is around all of them; other blocks are passed on as
- * they are. Input 1, optional: a vtkPointSet with the points of the lattice in their places, such as
- * output 1 of another vtkNURBSFreeFormDeformation after Warp By Vector.
+ * they are. Input 1, optional: a vtkPointSet with the points of the lattice in their places, such
+ * as output 1 of another vtkNURBSFreeFormDeformation after Warp By Vector.
  *
- * Output 0: the same type and structure as the input. Only the points are new (in double precision);
- * cells and all other arrays are the input's own objects. The array of points is kept from update to
- * update as long as the number of points is the same, written in place, and marked as modified only
- * if a value changed, so that a mapper or tessellator downstream updates no more than that. Copy it
- * (vtkPoints::DeepCopy) to keep a frame. The input is never written to.
+ * Output 0: the same type and structure as the input. Only the points are new (in double
+ * precision); cells and all other arrays are the input's own objects. The array of points is kept
+ * from update to update as long as the number of points is the same, written in place, and marked
+ * as modified only if a value changed, so that a mapper or tessellator downstream updates no more
+ * than that. Copy it (vtkPoints::DeepCopy) to keep a frame. The input is never written to.
  *
  * Output 1: the lattice as a vtkStructuredGrid in its present places, with the point data
  * "Displacement" (3 doubles, the vectors) from the places at rest.
  *
  * The field data passes through, the 3D curves of edges in it too. Moved by the lattice, an edge's
- * curve would fit neither face exactly; vtkNURBSModel finds that it does not fit and takes the faces'
- * own geometry, as after any filter that moves points (Documentation/decisions/moved-edges.md).
+ * curve would fit neither face exactly; vtkNURBSModel finds that it does not fit and takes the
+ * faces' own geometry, as after any filter that moves points
+ * (Documentation/decisions/moved-edges.md).
  *
  * A lattice point lies at
  *
  *     base + displacement
  *
  * where base is its place in input 1 if that is connected, else in SetLattice's points if they are
- * set, else its place at rest: the Greville abscissae of the box. A place or displacement that is not
- * finite, or a number of places that is not that of the lattice's points, is an error that names the
- * lattice point; the outputs are empty then, and filters downstream are not executed. The next good
- * update recovers.
+ * set, else its place at rest: the Greville abscissae of the box. A place or displacement that is
+ * not finite, or a number of places that is not that of the lattice's points, is an error that
+ * names the lattice point; the outputs are empty then, and filters downstream are not executed. The
+ * next good update recovers.
  *
- * Points outside the box stay, as do those that are not finite. How smoothly the deformation ends at
- * the box's border is told by SetFrozenLayers.
+ * Points outside the box stay, as do those that are not finite. How smoothly the deformation ends
+ * at the box's border is told by SetFrozenLayers.
  *
  * Work is spread by vtkSMPTools, the result does not depend on the number of threads. AbortExecute
  * is obeyed between models and leaves the outputs empty.
@@ -76,8 +77,8 @@ public:
 
   ///@{
   /**
-   * Number of lattice points along x, y and z, 2 to 32 each (clamped). Default 4, 4, 4. A change puts
-   * all displacements back to zero.
+   * Number of lattice points along x, y and z, 2 to 32 each (clamped). Default 4, 4, 4. A change
+   * puts all displacements back to zero.
    */
   void SetDimensions(int l, int m, int n);
   void SetDimensions(const int dimensions[3])
@@ -111,10 +112,11 @@ public:
   ///@{
   /**
    * With UseInputBounds: how far the box goes beyond the control points on every side, as a part of
-   * their box's diagonal. Default 0, at least 0. Where the models are flat (under 1e-9 of the diagonal)
-   * the box goes a tenth of the diagonal further. If there are no finite points Bounds are used.
-   * Mind that control points on a side of the box follow only the outermost layer of lattice points
-   * there: with no margin, those of a sphere, which all lie on sides, do not feel the inner ones.
+   * their box's diagonal. Default 0, at least 0. Where the models are flat (under 1e-9 of the
+   * diagonal) the box goes a tenth of the diagonal further. If there are no finite points Bounds
+   * are used. Mind that control points on a side of the box follow only the outermost layer of
+   * lattice points there: with no margin, those of a sphere, which all lie on sides, do not feel
+   * the inner ones.
    */
   vtkSetClampMacro(Margin, double, 0.0, VTK_FLOAT_MAX);
   vtkGetMacro(Margin, double);
@@ -122,8 +124,8 @@ public:
 
   ///@{
   /**
-   * Without UseInputBounds: the box, xmin, xmax, ymin, ymax, zmin, zmax. Default -1 to 1. A box that is
-   * flat, turned over or not finite is an error.
+   * Without UseInputBounds: the box, xmin, xmax, ymin, ymax, zmin, zmax. Default -1 to 1. A box
+   * that is flat, turned over or not finite is an error.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -133,8 +135,8 @@ public:
   /**
    * Layers of lattice points at every side of the box that stay at rest whatever is set for them.
    * Default 0, at least 0. Only points outside the box make a difference: with 0, those in the box
-   * part from them where the outermost layer is moved. With n layers the deformation is C^(n-1) across
-   * the border, for n up to the degree p, and C^(p-1) for more.
+   * part from them where the outermost layer is moved. With n layers the deformation is C^(n-1)
+   * across the border, for n up to the degree p, and C^(p-1) for more.
    */
   vtkSetClampMacro(FrozenLayers, int, 0, VTK_INT_MAX);
   vtkGetMacro(FrozenLayers, int);
@@ -147,8 +149,8 @@ public:
 
   ///@{
   /**
-   * Displacement of a lattice point, in units of length. All are 0 at first. An index out of range is
-   * an error and changes nothing (as a result: 0, 0, 0).
+   * Displacement of a lattice point, in units of length. All are 0 at first. An index out of range
+   * is an error and changes nothing (as a result: 0, 0, 0).
    */
   void SetLatticeDisplacement(vtkIdType index, double x, double y, double z);
   void SetLatticeDisplacement(int i, int j, int k, double x, double y, double z);
@@ -163,8 +165,8 @@ public:
 
   ///@{
   /**
-   * The places of all lattice points, to which displacements are added; null (default): at rest. The
-   * points are referenced, so that changing them and calling their Modified moves the lattice.
+   * The places of all lattice points, to which displacements are added; null (default): at rest.
+   * The points are referenced, so that changing them and calling their Modified moves the lattice.
    */
   void SetLattice(vtkPoints* points);
   vtkPoints* GetLattice();

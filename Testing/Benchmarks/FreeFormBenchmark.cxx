@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost of an update of vtkNURBSFreeFormDeformation: a cylinder with many control points is twisted by
-// its lattice, another angle every frame. Displacements of a twist by small angles are linear in each
-// variable, so the lattice reproduces them: the last column is the distance from that closed form.
+// Cost of an update of vtkNURBSFreeFormDeformation: a cylinder with many control points is twisted
+// by its lattice, another angle every frame. Displacements of a twist by small angles are linear in
+// each variable, so the lattice reproduces them: the last column is the distance from that closed
+// form.
 //   FreeFormBenchmark [THREADS]   default 1
 #include "Measuring.h"
 #include "ModelBuilder.h"
@@ -60,7 +61,8 @@ nurbs::Vec3 Twist(const double* x, double angle)
   return nurbs::Vec3(-angle * x[2] * x[1], angle * x[2] * x[0], 0.0);
 }
 
-// Sets the displacements of a twist; with `local`, of one lattice point in the middle of a side only.
+// Sets the displacements of a twist; with `local`, of one lattice point in the middle of a side
+// only.
 void SetTwist(vtkNURBSFreeFormDeformation* filter, vtkPoints* rest, double angle, bool local)
 {
   const int* size = filter->GetDimensions();

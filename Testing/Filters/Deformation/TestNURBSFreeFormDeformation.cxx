@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkNURBSFreeFormDeformation in pipelines: surfaces under affine lattices, what is shared and what is
-// modified from update to update, lattices from upstream, composites, bounds, threads, bad input.
+// vtkNURBSFreeFormDeformation in pipelines: surfaces under affine lattices, what is shared and what
+// is modified from update to update, lattices from upstream, composites, bounds, threads, bad
+// input.
 #include "../../testMessageKeeper.h"
 #include "vtkNURBSControlNet.h"
 #include "vtkNURBSFreeFormDeformation.h"
@@ -8,6 +9,7 @@
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -481,6 +483,7 @@ TEST(FreeFormDeformation, OneLatticeIsAroundAllModelsOfAnAssembly)
   auto* passed = vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(1, 0));
   ASSERT_NE(passed, nullptr);
   EXPECT_EQ(passed->GetPoints()->GetData(), somePoints->GetData());
+  EXPECT_EQ(models->GetPartitionAsDataObject(0, 0), sphere.GetPointer());
   EXPECT_EQ(Differences(sphere, Shape(vtkNURBSShapeSource::SPHERE)), 0);
   EXPECT_EQ(Differences(teapot, Shape(vtkNURBSShapeSource::TEAPOT)), 0);
 }
@@ -504,7 +507,9 @@ TEST(FreeFormDeformation, NestedBlocksAndThenASingleModel)
   auto* nested = vtkMultiBlockDataSet::SafeDownCast(output->GetBlock(2));
   ASSERT_NE(nested, nullptr);
   ExpectOneLattice(filter, torus, vtkUnstructuredGrid::SafeDownCast(nested->GetBlock(1)));
-  EXPECT_NE(nested->GetBlock(1), torus.GetPointer());
+  EXPECT_EQ(inner->GetBlock(1), torus.GetPointer()); // the input's tree is as it was
+  EXPECT_EQ(outer->GetBlock(2), inner.GetPointer());
+  EXPECT_EQ(Differences(torus, Shape(vtkNURBSShapeSource::TORUS)), 0);
   filter->SetInputData(sphere);
   filter->Update();
   ASSERT_NE(Model(filter), nullptr);
@@ -577,6 +582,30 @@ TEST(FreeFormDeformation, ThreadsGiveTheSameBits)
     EXPECT_EQ(filter->GetNumberOfMovedPoints(), Differences(first, sheet));
   }
   vtkSMPTools::Initialize(0);
+}
+
+TEST(FreeFormDeformation, AbortLeavesTheOutputsEmptyAndTheNextUpdateWorks)
+{
+  vtkNew<vtkPartitionedDataSetCollection> models;
+  models->SetPartition(0, 0, Shape(vtkNURBSShapeSource::SPHERE));
+  models->SetPartition(1, 0, Shape(vtkNURBSShapeSource::TORUS));
+  vtkNew<Filter> filter;
+  filter->SetInputData(models);
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*) {
+    static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+  });
+  const unsigned long observer = filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->Update();
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_EQ(output->GetNumberOfPartitionedDataSets(), 0u);
+  EXPECT_EQ(Lattice(filter)->GetNumberOfPoints(), 0);
+  filter->RemoveObserver(observer);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(output->GetNumberOfPartitionedDataSets(), 2u);
+  EXPECT_EQ(Lattice(filter)->GetNumberOfPoints(), 64);
 }
 
 TEST(FreeFormDeformation, OddInputsAreTaken)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The free-form lattice against equation (2) of Sederberg and Parry 1986 written out with absolute
+// The free-form lattice against the formula of Sederberg and Parry 1986 written out with absolute
 // control points, Bernstein polynomials by their binomials, B-splines by their recursion; against
 // closed forms (affine maps, a twist, a parabola); and at the border of its box.
 #include "FreeFormLattice.h"
@@ -73,7 +73,7 @@ double Greville(int i, int degree, int count)
   return sum / degree;
 }
 
-// Equation (2): all control points, in their places, times all functions.
+// All control points, in their places, times all functions.
 Vec3 Reference(const FreeFormLattice& lattice, const Vec3& local)
 {
   const auto value = [&](int axis, int i) {
@@ -266,7 +266,8 @@ TEST(FreeFormLattice, TwistIsReproduced)
   }
 }
 
-// z^2 has the coefficients sum_{a<b} k_a k_b / (p choose 2) over the p knots of a function (its blossom).
+// z^2 has the coefficients sum_{a<b} k_a k_b / (p choose 2) over the p knots of a function (its
+// blossom).
 TEST(FreeFormLattice, ParabolaIsReproduced)
 {
   const int count = 9, p = 3;
