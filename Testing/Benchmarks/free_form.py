@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Milliseconds an update of vtkNURBSFreeFormDeformation takes, with one thread and with two."""
 
