@@ -137,13 +137,19 @@ double DeformingEdge::ParameterOn(const Model& model, std::size_t u, int d, doub
   return 0.5 * (low + high);
 }
 
-// Where inner uses cross creases of their faces: no piece may go over one.
+// Corners of inner uses, and where they cross creases of their faces: no piece may go over one.
 void DeformingEdge::AddCreases(
   const Model& model, const Faces& faces, std::vector<double>& breaks) const
 {
   for (const std::size_t u : this->Inner)
   {
     const TrimCurve& curve = model.TrimCurves[this->Where[u].Curve];
+    const Interval own = curve.Geometry.Domain();
+    for (const double corner : CreaseKnots(curve.Geometry.Knots, curve.Geometry.Degree))
+    {
+      breaks.push_back(
+        this->Domain.Min + (corner - own.Min) / own.Length() * this->Domain.Length());
+    }
     const auto at = [&](double t, int d) {
       return Evaluate(curve.Geometry, TrimParameter(curve, this->Domain, t))[d];
     };
