@@ -7,8 +7,10 @@
  * models' control points with it; see FreeFormLattice.h for the mathematics. Surfaces stay NURBS
  * surfaces of the same degrees, knots, weights and trims. Their control points are where the
  * deformation puts them; the surface between them follows as closely as its control net is dense,
- * and exactly where the lattice is moved by an affine map. Faces that share control points, or
- * whose coinciding sides have the same control points, stay together.
+ * and exactly where the lattice is moved by an affine map. A plane of 2 x 2 control points does not
+ * bend at all. Hence faces stay together exactly where their coinciding sides have the same control
+ * points (the teapot); others of a bent solid part at their common edge by as much as their nets
+ * are too coarse, which a tessellator closes and tells of (capped faces).
  *
  * Input 0: a model of vtkNURBSModel (any vtkUnstructuredGrid is deformed the same way), or a
  * composite data set of models: one lattice is around all of them; other blocks are passed on as
