@@ -8,39 +8,6 @@
 #include <cmath>
 #include <limits>
 
-namespace
-{
-
-constexpr int Samples = 5;
-
-nurbs::Box3 FaceBox(const nurbs::Model& model, const nurbs::Face& face)
-{
-  const nurbs::Box2 uv = nurbs::LoopsBox(model, face);
-  nurbs::Box3 box;
-  if (uv.isEmpty())
-  {
-    return box;
-  }
-  int count[2];
-  for (int dir = 0; dir < 2; ++dir)
-  {
-    const bool linear = face.Geometry.Degree[dir] == 1 && face.Geometry.Count[dir] == 2;
-    count[dir] = linear ? 2 : Samples;
-  }
-  for (int j = 0; j < count[1]; ++j)
-  {
-    const double v = uv.min()[1] + uv.sizes()[1] * j / (count[1] - 1);
-    for (int i = 0; i < count[0]; ++i)
-    {
-      const double u = uv.min()[0] + uv.sizes()[0] * i / (count[0] - 1);
-      box.extend(nurbs::Evaluate(face.Geometry, u, v));
-    }
-  }
-  return box;
-}
-
-} // namespace
-
 std::vector<nurbs::Box3> vtkNURBSFaceExtent::FaceBoxes(const nurbs::Model& model,
   const std::vector<std::string>& faceErrors, const nurbs::ParallelFor& parallel)
 {
@@ -50,7 +17,7 @@ std::vector<nurbs::Box3> vtkNURBSFaceExtent::FaceBoxes(const nurbs::Model& model
     {
       if (faceErrors[f].empty())
       {
-        boxes[f] = FaceBox(model, model.Faces[f]);
+        boxes[f] = nurbs::SampledBox(model, model.Faces[f]);
       }
     }
   });
