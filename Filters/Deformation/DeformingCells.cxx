@@ -150,6 +150,7 @@ void DeformingFace::SplitCell(std::int32_t index, int direction)
     this->Retired.push_back(index);
   }
   this->ZoneChanged = this->ZoneChanged || this->Forest[index].State == CellState::Cut;
+  this->MarkSides(this->Forest[index]);
   const std::int32_t child = this->Forest.Split(index, direction);
   this->Fresh.push_back(child);
   this->Fresh.push_back(child + 1);
@@ -166,9 +167,19 @@ void DeformingFace::MergeCell(std::int32_t index)
     }
     this->ZoneChanged = this->ZoneChanged || this->Forest[k].State == CellState::Cut;
   }
+  this->MarkSides(this->Forest[index]);
   this->Forest.Merge(index);
   this->RetiredPairs.push_back(child);
   this->Fresh.push_back(index);
+}
+
+// Edges along these sides may have other vertices.
+void DeformingFace::MarkSides(const Cell& cell)
+{
+  for (int side = 0; side < 4; ++side)
+  {
+    this->NewOnSide[side] = this->NewOnSide[side] || this->IsOnSide(cell, side);
+  }
 }
 
 void DeformingFace::Force(std::int32_t index)
@@ -573,6 +584,7 @@ void DeformingFace::Rebuild(RefinementRequests& requests)
     this->CheckZone(requests, false);
   }
   this->ZoneChanged = this->LoopsChanged = this->SidesChanged = false;
+  std::fill_n(this->NewOnSide, 4, false);
 }
 
 std::int64_t DeformingFace::EstimateTriangles() const

@@ -99,6 +99,8 @@ public:
   void ClassifyPatches();
   /// Halves a cell for the zone's sake.
   void Force(std::int32_t cell);
+  /// True if cells along a side were halved or merged since the last Rebuild.
+  bool HasNewOnSide(int side) const { return this->NewOnSide[side]; }
   bool HasNewCells() const { return !this->Fresh.empty() || !this->Retired.empty(); }
   /// The leaves' lines along a side of the grid, ascending.
   void SideLines(int side, std::vector<std::uint32_t>& lines) const;
@@ -209,6 +211,7 @@ private:
   void AdaptHalves(std::int32_t cell, double a, double b, NetPath& path);
   int DirectionOf(std::int32_t cell, const SecondBound& scaled) const;
   void MergeCell(std::int32_t cell);
+  void MarkSides(const Cell& cell);
   void SplitCell(std::int32_t cell, int direction);
   std::uint64_t Key(std::uint32_t i, std::uint32_t j) const { return std::uint64_t(i) << 32 | j; }
   void Corner(const Cell& cell, int k, std::uint32_t& i, std::uint32_t& j) const;
@@ -292,6 +295,7 @@ private:
   std::vector<std::int32_t> Retired; ///< Cells that are leaves no more.
   std::vector<std::int32_t> RetiredPairs;
   std::vector<std::int32_t> Dirty; ///< Leaves whose triangles have to be made again.
+  bool NewOnSide[4] = { false, false, false, false };
 
   std::vector<LoopVertex> LoopVertices;
   std::vector<std::int32_t> FreeLoopVertices, NewLoopVertices;

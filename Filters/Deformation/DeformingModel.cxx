@@ -272,7 +272,7 @@ bool DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
     }
     const bool asked = this->EdgeChanged[e] || edge->HasNewPieces() ||
       std::any_of(edge->Uses().begin(), edge->Uses().end(), [&](const DeformingUse& use) {
-        return use.Side >= 0 && this->Faces[use.Face]->HasNewCells();
+        return use.Side >= 0 && this->Faces[use.Face]->HasNewOnSide(use.Side);
       });
     if (asked && edge->Update(model, this->Faces))
     {
