@@ -30,6 +30,15 @@ void AddValue(vtkFieldData* field, const char* name, T value)
   field->AddArray(array);
 }
 
+void AddRange(vtkFieldData* field, const char* name, const vtkIdType (&ends)[2])
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(2);
+  array->InsertNextTypedTuple(ends);
+  field->AddArray(array);
+}
+
 double Now()
 {
   using namespace std::chrono;
@@ -136,11 +145,9 @@ double vtkNURBSDeformingOutput::Tell(
   count("InsertedVertices", report.InsertedVertices);
   count("DeletedVertices", report.DeletedVertices);
   count("NumberOfTriangles", this->Store.TriangleCount);
-  vtkNew<vtkIdTypeArray> range;
-  range->SetName("ChangedPointRange");
-  range->SetNumberOfComponents(2);
-  range->InsertNextTypedTuple(this->ChangedRange);
-  field->AddArray(range);
+  const vtkIdType triangles[2] = { report.FirstTriangle, report.LastTriangle };
+  AddRange(field, "ChangedPointRange", this->ChangedRange);
+  AddRange(field, "ChangedTriangleRange", triangles);
   AddValue<vtkDoubleArray>(field, "ErrorBound", report.ErrorBound);
   AddValue<vtkDoubleArray>(field, "ModelGap", report.ModelGap);
   AddValue<vtkDoubleArray>(field, "ToleranceUsed", report.ToleranceUsed);
