@@ -64,8 +64,4 @@ struct Model
 /// domain; all of the domain without loops.
 Box2 LoopsBox(const Model& model, const Face& face);
 
-/// The box around 5 x 5 points of the surface (2 along straight directions) over the LoopsBox: what
-/// sizes relative to a model's diagonal are measured by. Empty if the face is not usable.
-Box3 SampledBox(const Model& model, const Face& face);
-
 } // namespace nurbs

@@ -2,6 +2,7 @@
 #include "vtkNURBSRefinement.h"
 
 #include "DenseNet.h"
+#include "ModelExtent.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelNames.h"
 #include "vtkNURBSModelView.h"
@@ -323,16 +324,19 @@ double vtkNURBSRefinement::AbsoluteSpacing(const std::vector<Part>& parts) const
   {
     return this->MaximumSpacing;
   }
-  nurbs::Box3 box;
+  std::vector<nurbs::Box3> boxes;
   for (const Part& part : parts)
   {
     const nurbs::Model& model = part.View->GetModel();
-    for (const nurbs::Face& face : model.Faces)
+    std::vector<std::string> errors;
+    for (std::size_t f = 0; f < model.Faces.size(); ++f)
     {
-      box.extend(nurbs::SampledBox(model, face));
+      errors.push_back(part.View->GetFaceError(vtkIdType(f)));
     }
+    const auto some = nurbs::FaceBoxes(model, errors, vtkNURBSParallelFor);
+    boxes.insert(boxes.end(), some.begin(), some.end());
   }
-  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  const double diagonal = nurbs::Diagonal(boxes);
   return this->MaximumSpacing * (diagonal > 0.0 ? diagonal : 1.0);
 }
 

@@ -24,13 +24,21 @@ std::int32_t CellForest::LeafAt(std::int64_t i, std::int64_t j) const
   {
     return -1;
   }
-  std::int32_t at = this->Grid.Patch(int(i >> ColumnBits), int(j >> ColumnBits));
-  while (this->Cells[at].Child >= 0)
+  return this->Descend(this->Grid.Patch(int(i >> ColumnBits), int(j >> ColumnBits)), i, j);
+}
+
+std::int32_t CellForest::LeafNear(std::int32_t cell, std::int64_t i, std::int64_t j) const
+{
+  for (std::int32_t at = cell; at >= 0; at = this->Cells[at].Parent)
   {
-    const Cell& second = this->Cells[this->Cells[at].Child + 1];
-    at = this->Cells[at].Child + (i >= second.I && j >= second.J ? 1 : 0);
+    const Cell& c = this->Cells[at];
+    if (c.Patch >= 0 && i >= c.I && j >= c.J && i < std::int64_t(c.I) + c.Width &&
+      j < std::int64_t(c.J) + c.Height)
+    {
+      return this->Descend(at, i, j);
+    }
   }
-  return at;
+  return this->LeafAt(i, j);
 }
 
 ParameterBox CellForest::Box(std::int32_t index) const

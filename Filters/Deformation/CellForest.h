@@ -28,9 +28,10 @@ struct Cell
   std::uint32_t I = 0, J = 0;          ///< The lower lines.
   std::uint32_t Width = 0, Height = 0; ///< In units of coordinates.
   std::int32_t Patch = -1;             ///< -1: its place is free.
-  std::int32_t Child = -1;  ///< The first of two that lie one after the other; -1: a leaf.
-  std::int32_t Parent = -1; ///< -1: a whole patch.
-  std::int32_t Triangles = -1;
+  std::int32_t Child = -1;     ///< The first of two that lie one after the other; -1: a leaf.
+  std::int32_t Parent = -1;    ///< -1: a whole patch.
+  std::int32_t Triangles = -1; ///< The first; -1: none.
+  std::int32_t Corners[4] = { -1, -1, -1, -1 }; ///< Points, counter-clockwise; if Built.
   CellState State = CellState::New;
   bool Built = false;  ///< Has triangles and uses its corners.
   bool Forced = false; ///< Halved for the zone's sake.
@@ -55,6 +56,8 @@ public:
   bool IsLeaf(std::int32_t cell) const { return this->Cells[cell].Child < 0; }
   /// The leaf that a place (not on a line) or the half-open cell at a line belongs to; -1: outside.
   std::int32_t LeafAt(std::int64_t i, std::int64_t j) const;
+  /// The same, found from a cell nearby, which may be one that was merged.
+  std::int32_t LeafNear(std::int32_t cell, std::int64_t i, std::int64_t j) const;
   ParameterBox Box(std::int32_t cell) const;
   bool CanSplit(std::int32_t cell, int direction) const;
   /// Halves a leaf. The halves are new leaves.
@@ -95,6 +98,17 @@ public:
   }
 
 private:
+  std::int32_t Descend(std::int32_t cell, std::int64_t i, std::int64_t j) const
+  {
+    while (this->Cells[cell].Child >= 0)
+    {
+      const std::int32_t child = this->Cells[cell].Child;
+      const Cell& second = this->Cells[child + 1];
+      cell = child + (i >= second.I && j >= second.J ? 1 : 0);
+    }
+    return cell;
+  }
+
   const FaceGrid& Grid;
   std::vector<Cell> Cells;
   std::vector<std::int32_t> FreePairs;

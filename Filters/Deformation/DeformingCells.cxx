@@ -18,15 +18,6 @@ constexpr double CornerSnap = 1e-6;  // Of a cell: loop vertices that are its co
 
 } // namespace
 
-// The curvature test (Li, Lau, Green 1997, section 4.2), by a bound of the distance between triangles
-// and surface instead of the control points' distances from a plane.
-double DeformingFace::Error(std::int32_t cell, SecondBound& second)
-{
-  const ParameterBox box = this->Forest.Box(cell);
-  second = this->NetOf(this->Forest[cell].Patch).Second(box);
-  return second.Bow(box.A(), box.B());
-}
-
 bool DeformingFace::Adapt(
   const std::function<double(const Vec3&)>& scale, bool everything, double hysteresis)
 {
@@ -45,7 +36,10 @@ bool DeformingFace::Adapt(
     }
     else
     {
-      this->AdaptCell(index);
+      thread_local NetPath path; // Kept for its memory.
+      path.Start(this->NetOf(index));
+      const ParameterBox box = this->Lines.Box(index);
+      this->AdaptCell(index, box.A(), box.B(), path);
     }
     patch.Recheck = false;
   }
@@ -68,44 +62,38 @@ void DeformingFace::HalveEvenly(std::int32_t index)
   }
 }
 
-// What the patch's moves can have changed of a cell's error.
-double DeformingFace::Weighed(const Cell& cell) const
-{
-  const double a = this->Lines.Axis[0].Extent(this->Lines.Column(cell.Patch)).Length();
-  const double b = this->Lines.Axis[1].Extent(this->Lines.Row(cell.Patch)).Length();
-  return this->Patches[cell.Patch].Moved.Bow(
-    a * (double(cell.Width) / ColumnUnits), b * (double(cell.Height) / ColumnUnits));
-}
-
-void DeformingFace::AdaptCell(std::int32_t index)
+// The curvature test (Li, Lau, Green 1997, section 4.2), by a bound of the distance between triangles
+// and surface instead of the control points' distances from a plane. a, b: the cell's extents; the path
+// leads to it.
+void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& path)
 {
   Patch& patch = this->Patches[this->Forest[index].Patch];
   const double tolerance = patch.Tolerance;
-  const double moved = this->Weighed(this->Forest[index]);
-  SecondBound second;
+  const double moved = patch.Moved.Bow(a, b);
+  SecondBound scaled;
   const auto measure = [&]() {
-    const double error = this->Error(index, second);
+    scaled = path.Scaled();
+    const double error = scaled.Bow(1.0, 1.0);
     this->Forest[index].Up = error - moved;
     this->Forest[index].Low = error + moved;
     return error;
   };
   const std::int32_t child = this->Forest[index].Child;
-  if (child < 0 && this->Forest[index].State == CellState::Outside)
-  {
-    return;
-  }
   if (child < 0)
   {
-    const bool unknown = patch.Recheck || std::isinf(this->Forest[index].Up);
-    if (unknown || this->Forest[index].Up + moved > tolerance)
+    const Cell& cell = this->Forest[index];
+    if (cell.State == CellState::Outside)
+    {
+      return;
+    }
+    if (patch.Recheck || std::isinf(cell.Up) || cell.Up + moved > tolerance)
     {
       const double error = measure();
-      const int direction = error > tolerance ? this->DirectionOf(index, second) : -1;
+      const int direction = error > tolerance ? this->DirectionOf(index, scaled) : -1;
       if (direction >= 0)
       {
         this->SplitCell(index, direction);
-        this->AdaptCell(this->Forest[index].Child);
-        this->AdaptCell(this->Forest[index].Child + 1);
+        this->AdaptHalves(index, a, b, path);
         return;
       }
       patch.Capped += error > tolerance;
@@ -113,36 +101,43 @@ void DeformingFace::AdaptCell(std::int32_t index)
     patch.Error = std::max(patch.Error, this->Forest[index].Up + moved);
     return;
   }
-  this->AdaptCell(child);
-  this->AdaptCell(child + 1);
-  if (!this->Forest.IsLeaf(child) || !this->Forest.IsLeaf(child + 1))
+  this->AdaptHalves(index, a, b, path);
+  const Cell& first = this->Forest[child];
+  const Cell& second = this->Forest[child + 1];
+  if (first.Child >= 0 || second.Child >= 0)
   {
     return;
   }
-  if (this->Forest[child].State == CellState::Outside &&
-    this->Forest[child + 1].State == CellState::Outside)
-  {
-    this->MergeCell(index);
-    return;
-  }
+  const bool outside = first.State == CellState::Outside && second.State == CellState::Outside;
   const double limit =
     this->MergeShare * tolerance * (this->Forest[index].Forced ? ForcedShare : 1.0);
-  if ((patch.Recheck || this->Forest[index].Low - moved <= limit) && measure() <= limit)
+  if (outside ||
+    ((patch.Recheck || this->Forest[index].Low - moved <= limit) && measure() <= limit))
   {
     this->MergeCell(index);
   }
 }
 
+void DeformingFace::AdaptHalves(std::int32_t index, double a, double b, NetPath& path)
+{
+  const std::int32_t child = this->Forest[index].Child;
+  const int direction = this->Forest[child].Width < this->Forest[index].Width ? 0 : 1;
+  for (int half = 0; half < 2; ++half)
+  {
+    path.Push(direction, half);
+    this->AdaptCell(child + half, direction == 0 ? 0.5 * a : a, direction == 1 ? 0.5 * b : b, path);
+    path.Pop();
+  }
+}
+
 // The direction to halve a cell in: where it deviates more; the longer one if it is the twist that
 // does. -1: it is as small as cells become.
-int DeformingFace::DirectionOf(std::int32_t index, const SecondBound& second) const
+int DeformingFace::DirectionOf(std::int32_t index, const SecondBound& scaled) const
 {
-  const ParameterBox box = this->Forest.Box(index);
   const Cell& cell = this->Forest[index];
-  const double u = box.A() * box.A() * second.Uu;
-  const double v = box.B() * box.B() * second.Vv;
-  const bool twisted = 2.0 * box.A() * box.B() * second.Uv > u + v;
-  const int direction = twisted ? (cell.Width >= cell.Height ? 0 : 1) : (u >= v ? 0 : 1);
+  const bool twisted = 2.0 * scaled.Uv > scaled.Uu + scaled.Vv;
+  const int direction =
+    twisted ? (cell.Width >= cell.Height ? 0 : 1) : (scaled.Uu >= scaled.Vv ? 0 : 1);
   return this->Forest.CanSplit(index, direction)  ? direction
     : this->Forest.CanSplit(index, 1 - direction) ? 1 - direction
                                                   : -1;
@@ -155,6 +150,7 @@ void DeformingFace::SplitCell(std::int32_t index, int direction)
     this->Retired.push_back(index);
   }
   this->ZoneChanged = this->ZoneChanged || this->Forest[index].State == CellState::Cut;
+  this->MarkSides(this->Forest[index]);
   const std::int32_t child = this->Forest.Split(index, direction);
   this->Fresh.push_back(child);
   this->Fresh.push_back(child + 1);
@@ -171,9 +167,19 @@ void DeformingFace::MergeCell(std::int32_t index)
     }
     this->ZoneChanged = this->ZoneChanged || this->Forest[k].State == CellState::Cut;
   }
+  this->MarkSides(this->Forest[index]);
   this->Forest.Merge(index);
   this->RetiredPairs.push_back(child);
   this->Fresh.push_back(index);
+}
+
+// Edges along these sides may have other vertices.
+void DeformingFace::MarkSides(const Cell& cell)
+{
+  for (int side = 0; side < 4; ++side)
+  {
+    this->NewOnSide[side] = this->NewOnSide[side] || this->IsOnSide(cell, side);
+  }
 }
 
 void DeformingFace::Force(std::int32_t index)
@@ -182,16 +188,16 @@ void DeformingFace::Force(std::int32_t index)
   {
     return; // Asked for by two triangles.
   }
-  SecondBound second;
-  this->Error(index, second);
-  const int direction = this->DirectionOf(index, second);
+  const ParameterBox box = this->Forest.Box(index);
+  SecondBound scaled = this->NetOf(this->Forest[index].Patch).Second(box);
+  scaled.Uu *= box.A() * box.A();
+  scaled.Uv *= box.A() * box.B();
+  scaled.Vv *= box.B() * box.B();
+  const int direction = this->DirectionOf(index, scaled);
   if (direction >= 0)
   {
     this->Forest[index].Forced = true;
     this->SplitCell(index, direction);
-    const std::int32_t child = this->Forest[index].Child;
-    this->AdaptCell(child);
-    this->AdaptCell(child + 1);
   }
 }
 
@@ -211,22 +217,23 @@ void DeformingFace::Corner(const Cell& cell, int k, std::uint32_t& i, std::uint3
   j = cell.J + (k >= 2 ? cell.Height : 0);
 }
 
-// The vertex at the crossing of two lines, made if there is none, with one use more.
-std::int32_t DeformingFace::Acquire(std::uint32_t i, std::uint32_t j)
+// The vertex at the crossing of two lines, made if there is none, with one use more. `near`: a cell there.
+std::int32_t DeformingFace::Acquire(std::int32_t near, std::uint32_t i, std::uint32_t j)
 {
+  const int column = this->Lines.Axis[0].ColumnOf(i);
+  const int row = this->Lines.Axis[1].ColumnOf(j);
+  const std::int32_t index = this->Lines.Patch(column, row);
+  Patch& patch = this->Patches[index];
   const std::uint64_t key = this->Key(i, j);
-  std::int32_t point = this->PointAt.Find(key);
+  std::int32_t point = patch.PointAt.Find(key);
   if (point >= 0)
   {
     PointUse& use = this->Slots.Use(point);
     use.Uses += use.Patch >= 0;
     return point;
   }
-  const int column = this->Lines.Axis[0].ColumnOf(i);
-  const int row = this->Lines.Axis[1].ColumnOf(j);
-  const std::int32_t index = this->Lines.Patch(column, row);
-  PatchVertices& vertices = this->Patches[index].Vertices;
-  if (vertices.Size() == this->Patches[index].Evaluated)
+  PatchVertices& vertices = patch.Vertices;
+  if (vertices.Size() == patch.Evaluated)
   {
     this->PatchesWithNew.push_back(index);
   }
@@ -236,23 +243,22 @@ std::int32_t DeformingFace::Acquire(std::uint32_t i, std::uint32_t j)
   vertices.J.push_back(this->Lines.Axis[1].Line(j));
   vertices.Points.push_back(point);
   vertices.Keys.push_back(key);
-  this->PointAt.Set(key, point);
-  this->MarkAround(i, j);
+  patch.PointAt.Set(key, point);
+  this->MarkAround(near, i, j);
   return point;
 }
 
 // One use less; a vertex without any is removed.
-void DeformingFace::Release(std::uint32_t i, std::uint32_t j)
+void DeformingFace::Release(std::int32_t near, std::int32_t point)
 {
-  const std::uint64_t key = this->Key(i, j);
-  const std::int32_t point = this->PointAt.Find(key);
-  if (point < 0 || this->Slots.Use(point).Patch < 0 || --this->Slots.Use(point).Uses > 0)
+  if (this->Slots.Use(point).Patch < 0 || --this->Slots.Use(point).Uses > 0)
   {
     return;
   }
   const PointUse use = this->Slots.Use(point);
   Patch& patch = this->Patches[use.Patch];
   PatchVertices& vertices = patch.Vertices;
+  const std::uint64_t key = vertices.Keys[use.Index];
   const std::size_t last = vertices.Size() - 1;
   vertices.I[use.Index] = vertices.I[last];
   vertices.J[use.Index] = vertices.J[last];
@@ -271,18 +277,18 @@ void DeformingFace::Release(std::uint32_t i, std::uint32_t j)
     this->SumBytes -= BytesPerSum;
   }
   patch.Evaluated = last;
-  this->PointAt.Remove(key);
+  patch.PointAt.Remove(key);
   this->Slots.RemovePoint(point);
-  this->MarkAround(i, j);
+  this->MarkAround(near, std::uint32_t(key >> 32), std::uint32_t(key));
 }
 
 // Leaves around a vertex that came or went have other triangles.
-void DeformingFace::MarkAround(std::uint32_t i, std::uint32_t j)
+void DeformingFace::MarkAround(std::int32_t near, std::uint32_t i, std::uint32_t j)
 {
   for (int k = 0; k < 4; ++k)
   {
     const std::int32_t leaf =
-      this->Forest.LeafAt(std::int64_t(i) - (k & 1), std::int64_t(j) - (k >> 1));
+      this->Forest.LeafNear(near, std::int64_t(i) - (k & 1), std::int64_t(j) - (k >> 1));
     if (leaf >= 0)
     {
       this->MarkDirty(leaf);
@@ -303,27 +309,29 @@ void DeformingFace::MarkDirty(std::int32_t leaf)
 
 void DeformingFace::AcquireCorners(std::int32_t leaf)
 {
-  Cell& cell = this->Forest[leaf];
-  for (int k = 0; k < 4 && !cell.Built; ++k)
+  for (int k = 0; k < 4 && !this->Forest[leaf].Built; ++k)
   {
     std::uint32_t i, j;
-    this->Corner(cell, k, i, j);
-    this->Acquire(i, j);
+    this->Corner(this->Forest[leaf], k, i, j);
+    this->Forest[leaf].Corners[k] = this->Acquire(leaf, i, j);
   }
-  cell.Built = true;
+  this->Forest[leaf].Built = true;
   this->MarkDirty(leaf);
 }
 
 void DeformingFace::Retire(std::int32_t index)
 {
-  Cell& cell = this->Forest[index];
   this->Slots.RemoveTriangles({ this->Index, index });
-  cell.Built = false;
+  this->Forest[index].Built = false;
+  const std::uint32_t last[2] = { this->Lines.Axis[0].Last(), this->Lines.Axis[1].Last() };
   for (int k = 0; k < 4; ++k)
   {
     std::uint32_t i, j;
-    this->Corner(cell, k, i, j);
-    this->Release(i, j);
+    this->Corner(this->Forest[index], k, i, j);
+    if (i > 0 && j > 0 && i < last[0] && j < last[1]) // Others are the edges'.
+    {
+      this->Release(index, this->Forest[index].Corners[k]);
+    }
   }
 }
 
@@ -385,7 +393,7 @@ bool DeformingFace::TakesSides(const Cell& cell) const
       const SideSegment& segment = this->Sides[side][end ? segments.back() : segments.front()];
       const std::uint32_t i = cell.I + (side == 1 || (side % 2 == 0 && end) ? cell.Width : 0);
       const std::uint32_t j = cell.J + (side == 2 || (side % 2 == 1 && end) ? cell.Height : 0);
-      if (this->PointAt.Find(this->Key(i, j)) != this->LoopVertices[segment.Vertex[end]].Point)
+      if (this->PointAt(i, j) != this->LoopVertices[segment.Vertex[end]].Point)
       {
         return false;
       }
@@ -406,7 +414,7 @@ void DeformingFace::AppendInner(std::uint32_t i0, std::uint32_t j0, std::uint32_
   }
   const std::uint32_t i = (i0 + i1) / 2;
   const std::uint32_t j = (j0 + j1) / 2;
-  const std::int32_t point = this->PointAt.Find(this->Key(i, j));
+  const std::int32_t point = this->PointAt(i, j);
   if (point >= 0)
   {
     this->AppendInner(i0, j0, i, j, out);
@@ -427,7 +435,7 @@ void DeformingFace::Boundary(const Cell& cell, std::vector<BoundaryVertex>& out)
     this->Corner(cell, (side + 1) % 4, i1, j1);
     if (!this->IsOnSide(cell, side) || !this->FindChain(cell, side, segments))
     {
-      out.push_back({ this->PointAt.Find(this->Key(i, j)), i, j });
+      out.push_back({ cell.Corners[side], i, j });
       this->AppendInner(i, j, i1, j1, out);
       continue;
     }
@@ -471,7 +479,16 @@ void DeformingFace::BuildCell(std::int32_t leaf)
   thread_local std::vector<Vec2> corners;
   thread_local std::vector<Vec3> places;
   this->Slots.RemoveTriangles({ this->Index, leaf });
-  this->Boundary(this->Forest[leaf], boundary);
+  Cell& cell = this->Forest[leaf];
+  const bool onSide = this->IsOnSide(cell, 0) || this->IsOnSide(cell, 1) ||
+    this->IsOnSide(cell, 2) || this->IsOnSide(cell, 3);
+  for (int k = 0; k < 4 && onSide; ++k) // An edge may have another vertex there now.
+  {
+    std::uint32_t i, j;
+    this->Corner(cell, k, i, j);
+    cell.Corners[k] = this->PointAt(i, j);
+  }
+  this->Boundary(cell, boundary);
   const auto point = [&](int k) { return this->Slots.Point(boundary[k].Point); };
   if (boundary.size() == 4)
   {
@@ -481,6 +498,20 @@ void DeformingFace::BuildCell(std::int32_t leaf)
     {
       this->AddTriangle(leaf, boundary[(k + half) % 4].Point, boundary[(k + half + 1) % 4].Point,
         boundary[(k + half + 2) % 4].Point);
+    }
+    return;
+  }
+  if (boundary.size() == 5 && !onSide)
+  {
+    int h = 0; // The one that is no corner.
+    while (std::find(cell.Corners, cell.Corners + 4, boundary[h].Point) != cell.Corners + 4)
+    {
+      ++h;
+    }
+    for (int k = 1; k < 4; ++k)
+    {
+      this->AddTriangle(
+        leaf, boundary[h].Point, boundary[(h + k) % 5].Point, boundary[(h + k + 1) % 5].Point);
     }
     return;
   }
@@ -514,7 +545,7 @@ void DeformingFace::Rebuild(RefinementRequests& requests)
     }
   }
   this->Fresh.clear();
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> before = this->AcquireZone();
+  const std::vector<GridVertex> before = this->AcquireZone();
   this->EvaluateNew();
   for (const std::int32_t cell : this->Retired)
   {
@@ -530,9 +561,10 @@ void DeformingFace::Rebuild(RefinementRequests& requests)
     this->Forest.GiveBack(pair);
   }
   this->RetiredPairs.clear();
-  for (const auto& vertex : before)
+  for (const GridVertex& vertex : before)
   {
-    this->Release(vertex.first, vertex.second);
+    const std::int32_t near = this->Forest.LeafAt(vertex.first, vertex.second);
+    this->Release(near, this->PointAt(vertex.first, vertex.second));
   }
   for (const std::int32_t leaf : this->Dirty)
   {
@@ -552,6 +584,7 @@ void DeformingFace::Rebuild(RefinementRequests& requests)
     this->CheckZone(requests, false);
   }
   this->ZoneChanged = this->LoopsChanged = this->SidesChanged = false;
+  std::fill_n(this->NewOnSide, 4, false);
 }
 
 std::int64_t DeformingFace::EstimateTriangles() const

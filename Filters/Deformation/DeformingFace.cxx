@@ -205,9 +205,9 @@ std::int64_t DeformingFace::Move(const SurfaceView& surface)
   SecondBound second;
   Vec2 first = Vec2::Zero();
   std::int64_t updated = 0;
-  for (const int patch : this->Touched)
+  for (std::size_t k = 0; k < this->Touched.size() && this->Options.Refine; ++k)
   {
-    this->SumMove(patch, second, first);
+    this->SumMove(this->Touched[k], second, first);
   }
   this->SumSecond += second;
   this->SumFirst += first;
@@ -233,7 +233,7 @@ std::int64_t DeformingFace::MovePatch(int index)
   Patch& patch = this->Patches[index];
   const int count = this->Lines.Axis[1].Degree() + 1;
   const int n = this->Lines.Axis[0].Degree() + 1;
-  std::vector<Vec4> change;
+  thread_local std::vector<Vec4> change; // Kept for its memory, as below.
   this->Gather(index, this->Change, change);
   int first = count, last = -1;
   for (int row = 0; row < count; ++row)
@@ -257,7 +257,9 @@ std::int64_t DeformingFace::MovePatch(int index)
     update.FirstRow = first;
     update.LastRow = last;
     ++vertices.Updates;
-    this->UpdatePatch(index, update, 0);
+    thread_local std::vector<Vec4> control;
+    this->Gather(index, this->Control, control);
+    this->UpdatePatch(index, update, 0, control.data());
     return std::int64_t(vertices.Size());
   }
   const std::int64_t bytes = std::int64_t(vertices.Size()) * BytesPerSum;
@@ -272,11 +274,12 @@ std::int64_t DeformingFace::MovePatch(int index)
   this->Gather(index, this->Control, change);
   update.Net = change.data();
   update.LastRow = count - 1;
-  this->UpdatePatch(index, update, 0);
+  this->UpdatePatch(index, update, 0, change.data());
   return std::int64_t(vertices.Size());
 }
 
-void DeformingFace::UpdatePatch(int index, PatchUpdate& update, std::size_t begin)
+void DeformingFace::UpdatePatch(
+  int index, PatchUpdate& update, std::size_t begin, const Vec4* control)
 {
   PatchVertices& vertices = this->Patches[index].Vertices;
   if (vertices.Size() == begin)
@@ -287,7 +290,7 @@ void DeformingFace::UpdatePatch(int index, PatchUpdate& update, std::size_t begi
   update.Patch = index;
   update.Rational = this->Rational;
   update.Reversed = this->Reversed;
-  this->NetOf(index).Shortest(update.Shortest);
+  ShortestDerivatives(this->Lines, index, this->Rational, control, update.Shortest);
   MeshArrays& mesh = this->Slots.Arrays();
   for (const std::int32_t k : UpdateVertices(update, vertices, begin, mesh.Points, mesh.Normals))
   {
@@ -321,7 +324,7 @@ void DeformingFace::EvaluateNew()
     this->Gather(index, this->Control, net);
     update.Net = net.data();
     update.LastRow = this->Lines.Axis[1].Degree();
-    this->UpdatePatch(index, update, patch.Evaluated);
+    this->UpdatePatch(index, update, patch.Evaluated, net.data());
     patch.Evaluated = patch.Vertices.Size();
   }
   this->PatchesWithNew.clear();
@@ -377,7 +380,7 @@ void DeformingFace::RemoveLoopVertex(std::int32_t index)
 }
 
 // H, H_u, H_v of a loop vertex.
-void DeformingFace::SumLoopVertex(std::int32_t index, Vec4 (&h)[3]) const
+void DeformingFace::SumLoopVertex(std::int32_t index, Vec4 (&h)[3], double (*shortest)[2]) const
 {
   const LoopVertex& vertex = this->LoopVertices[index];
   const int p = this->Lines.Axis[0].Degree();
@@ -395,12 +398,16 @@ void DeformingFace::SumLoopVertex(std::int32_t index, Vec4 (&h)[3]) const
   thread_local std::vector<Vec4> net; // Kept for its memory.
   this->Gather(vertex.Patch, this->Control, net);
   SumVertex(basis, p, basis + 2 * (p + 1), q, net.data(), h);
+  if (shortest)
+  {
+    ShortestDerivatives(this->Lines, vertex.Patch, this->Rational, net.data(), *shortest);
+  }
 }
 
 Vec3 DeformingFace::PlaceOf(std::int32_t index) const
 {
   Vec4 h[3];
-  this->SumLoopVertex(index, h);
+  this->SumLoopVertex(index, h, nullptr);
   return h[0].head<3>() / (this->Rational ? h[0][3] : 1.0);
 }
 
@@ -408,9 +415,8 @@ void DeformingFace::EvaluateLoopVertex(std::int32_t index)
 {
   const LoopVertex& vertex = this->LoopVertices[index];
   Vec4 h[3];
-  this->SumLoopVertex(index, h);
   double shortest[2];
-  this->NetOf(vertex.Patch).Shortest(shortest);
+  this->SumLoopVertex(index, h, &shortest);
   MeshArrays& mesh = this->Slots.Arrays();
   const std::int64_t at = 3 * std::int64_t(vertex.Point);
   if (!FinishVertex(
@@ -502,31 +508,37 @@ Vec2 DeformingFace::First(const ParameterBox& box)
   return out;
 }
 
-void DeformingFace::Renumber(std::int32_t from, std::int32_t to)
+void DeformingFace::Renumber(const std::vector<std::int32_t>& places)
 {
-  const PointUse& use = this->Slots.Use(to);
-  std::uint64_t key = 0;
-  if (use.Patch < 0)
+  const auto move = [&](std::int32_t& point) { point = point >= 0 ? places[point] : -1; };
+  for (Patch& patch : this->Patches)
   {
-    LoopVertex& vertex = this->LoopVertices[use.Index];
-    vertex.Point = to;
-    if (vertex.Line[0] < 0 || vertex.Line[1] < 0)
+    std::for_each(patch.Vertices.Points.begin(), patch.Vertices.Points.end(), move);
+    patch.PointAt.ForEach(move);
+  }
+  for (LoopVertex& vertex : this->LoopVertices)
+  {
+    move(vertex.Point);
+  }
+  for (std::vector<SideSegment>& side : this->Sides)
+  {
+    for (SideSegment& segment : side)
     {
-      return;
-    }
-    key = this->Key(vertex.Line[0], vertex.Line[1]);
-    if (this->PointAt.Find(key) != from)
-    {
-      return;
+      move(segment.A);
+      move(segment.B);
     }
   }
-  else
+  for (std::int32_t cell = 0; cell < this->Forest.Size(); ++cell)
   {
-    PatchVertices& vertices = this->Patches[use.Patch].Vertices;
-    vertices.Points[use.Index] = to;
-    key = vertices.Keys[use.Index];
+    if (this->Forest[cell].Built)
+    {
+      std::for_each(this->Forest[cell].Corners, this->Forest[cell].Corners + 4, move);
+    }
   }
-  this->PointAt.Set(key, to);
+  for (ZoneTriangle& triangle : this->Zones)
+  {
+    std::for_each(triangle.Points.begin(), triangle.Points.end(), move);
+  }
 }
 
 } // namespace nurbs

@@ -99,6 +99,8 @@ public:
   void ClassifyPatches();
   /// Halves a cell for the zone's sake.
   void Force(std::int32_t cell);
+  /// True if cells along a side were halved or merged since the last Rebuild.
+  bool HasNewOnSide(int side) const { return this->NewOnSide[side]; }
   bool HasNewCells() const { return !this->Fresh.empty() || !this->Retired.empty(); }
   /// The leaves' lines along a side of the grid, ascending.
   void SideLines(int side, std::vector<std::uint32_t>& lines) const;
@@ -123,8 +125,8 @@ public:
 
   /// Triangles of all that changed. For one thread a model.
   void Rebuild(RefinementRequests& requests);
-  /// Renumbers a point, see MeshSlots::Compact.
-  void Renumber(std::int32_t from, std::int32_t to);
+  /// Renumbers the points, see MeshSlots::Compact.
+  void Renumber(const std::vector<std::int32_t>& places);
 
   /// Bounds over any box of the used part, of |S_uu|, |S_uv|, |S_vv| and of |S_u|, |S_v|.
   SecondBound Second(const ParameterBox& box);
@@ -168,6 +170,7 @@ private:
   struct Patch
   {
     PatchVertices Vertices;
+    FlatIndex PointAt; ///< By lines, see Key; loop vertices, too.
     SecondBound Moved; ///< Sums over frames, see PatchErrors.h.
     double Tolerance = 0.0;
     double Error = 0.0;      ///< Bound of its cells'.
@@ -185,14 +188,14 @@ private:
   void MarkPatches();
   void SumMove(int patch, SecondBound& second, Vec2& first);
   std::int64_t MovePatch(int patch);
-  void UpdatePatch(int patch, PatchUpdate& update, std::size_t begin);
+  void UpdatePatch(int patch, PatchUpdate& update, std::size_t begin, const Vec4* control);
   std::int64_t MoveLoopVertices();
   std::size_t CoefficientCount() const
   {
     return 2 * std::size_t(this->Lines.Axis[0].Degree() + this->Lines.Axis[1].Degree() + 2);
   }
   void EvaluateCoefficients(std::int32_t vertex, double* to) const;
-  void SumLoopVertex(std::int32_t vertex, Vec4 (&h)[3]) const;
+  void SumLoopVertex(std::int32_t vertex, Vec4 (&h)[3], double (*shortest)[2]) const;
   void EvaluateLoopVertex(std::int32_t vertex);
   void EvaluateNew();
   void MendNormal(std::int32_t point);
@@ -204,19 +207,30 @@ private:
     std::uint32_t I, J;
   };
   void HalveEvenly(std::int32_t cell);
-  void AdaptCell(std::int32_t cell);
-  int DirectionOf(std::int32_t cell, const SecondBound& second) const;
+  void AdaptCell(std::int32_t cell, double a, double b, NetPath& path);
+  void AdaptHalves(std::int32_t cell, double a, double b, NetPath& path);
+  int DirectionOf(std::int32_t cell, const SecondBound& scaled) const;
   void MergeCell(std::int32_t cell);
-  double Error(std::int32_t cell, SecondBound& second);
+  void MarkSides(const Cell& cell);
   void SplitCell(std::int32_t cell, int direction);
-  double Weighed(const Cell& cell) const;
   std::uint64_t Key(std::uint32_t i, std::uint32_t j) const { return std::uint64_t(i) << 32 | j; }
   void Corner(const Cell& cell, int k, std::uint32_t& i, std::uint32_t& j) const;
-  std::int32_t Acquire(std::uint32_t i, std::uint32_t j);
-  void Release(std::uint32_t i, std::uint32_t j);
+  FlatIndex& TableOf(std::uint32_t i, std::uint32_t j)
+  {
+    const int column = this->Lines.Axis[0].ColumnOf(i);
+    return this->Patches[this->Lines.Patch(column, this->Lines.Axis[1].ColumnOf(j))].PointAt;
+  }
+  std::int32_t PointAt(std::uint32_t i, std::uint32_t j) const
+  {
+    const int column = this->Lines.Axis[0].ColumnOf(i);
+    return this->Patches[this->Lines.Patch(column, this->Lines.Axis[1].ColumnOf(j))].PointAt.Find(
+      this->Key(i, j));
+  }
+  std::int32_t Acquire(std::int32_t near, std::uint32_t i, std::uint32_t j);
+  void Release(std::int32_t near, std::int32_t point);
   void AcquireCorners(std::int32_t cell);
   void Retire(std::int32_t cell);
-  void MarkAround(std::uint32_t i, std::uint32_t j);
+  void MarkAround(std::int32_t near, std::uint32_t i, std::uint32_t j);
   bool IsOnSide(const Cell& cell, int side) const;
   bool FindChain(const Cell& cell, int side, std::vector<std::int32_t>& segments) const;
   bool TakesSides(const Cell& cell) const;
@@ -228,7 +242,7 @@ private:
   void AddTriangle(std::int32_t cell, std::int32_t a, std::int32_t b, std::int32_t c);
   void BuildCell(std::int32_t leaf);
 
-  // FaceZone.cxx: cells that loops cut, and the zone.
+  // LeafStates.cxx: which cells the loops leave whole. FaceZone.cxx: the zone.
   using GridVertex = std::pair<std::uint32_t, std::uint32_t>;
   using Wall = std::array<std::int32_t, 2>;
   void ClassifyLeaves();
@@ -276,12 +290,12 @@ private:
   Vec2 SumFirst = Vec2::Zero();
   int ResetCount = 0;
 
-  FlatIndex PointAt; ///< By the lines of a place.
   std::vector<std::int32_t> PatchesWithNew;
   std::vector<std::int32_t> Fresh;   ///< New leaves.
   std::vector<std::int32_t> Retired; ///< Cells that are leaves no more.
   std::vector<std::int32_t> RetiredPairs;
   std::vector<std::int32_t> Dirty; ///< Leaves whose triangles have to be made again.
+  bool NewOnSide[4] = { false, false, false, false };
 
   std::vector<LoopVertex> LoopVertices;
   std::vector<std::int32_t> FreeLoopVertices, NewLoopVertices;

@@ -106,7 +106,7 @@ void DeformingModel::MakeFaces(const std::vector<std::string>& faceErrors)
   const Model& model = this->Data.Data;
   FaceOptions options;
   options.Tolerance = this->Options.Tolerance;
-  options.Refine = this->Options.Refine;
+  options.Refine = this->Options.Refine && this->Options.FixedDepth < 0;
   options.FixedDepth = this->Options.FixedDepth;
   options.KeepCoefficients = this->Options.KeepCoefficients;
   Box3 box;
@@ -272,7 +272,7 @@ bool DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
     }
     const bool asked = this->EdgeChanged[e] || edge->HasNewPieces() ||
       std::any_of(edge->Uses().begin(), edge->Uses().end(), [&](const DeformingUse& use) {
-        return use.Side >= 0 && this->Faces[use.Face]->HasNewCells();
+        return use.Side >= 0 && this->Faces[use.Face]->HasNewOnSide(use.Side);
       });
     if (asked && edge->Update(model, this->Faces))
     {
@@ -564,9 +564,14 @@ void DeformingModel::Finish()
   this->Slots.FillGaps();
   if (this->Slots.IsSparse())
   {
-    this->Slots.Compact([this](std::int32_t from, std::int32_t to) {
-      this->Faces[this->Slots.Use(to).Face]->Renumber(from, to);
-    });
+    const std::vector<std::int32_t> places = this->Slots.Compact();
+    for (const std::unique_ptr<DeformingFace>& face : this->Faces)
+    {
+      if (face)
+      {
+        face->Renumber(places);
+      }
+    }
   }
   this->Share(true);
   this->Slots.HideGaps();

@@ -230,7 +230,7 @@ bool MeshSlots::IsSparse() const
   return double(this->FreePoints.size()) > LargestFreeShare * double(this->Uses.size());
 }
 
-void MeshSlots::Compact(const std::function<void(std::int32_t from, std::int32_t to)>& moved)
+std::vector<std::int32_t> MeshSlots::Compact()
 {
   std::vector<std::int32_t> place(this->Uses.size(), -1);
   std::int32_t count = 0;
@@ -248,7 +248,6 @@ void MeshSlots::Compact(const std::function<void(std::int32_t from, std::int32_t
       std::copy_n(this->Data.Normals + 3 * from, 3, this->Data.Normals + 3 * std::int64_t(count));
       std::copy_n(this->Data.UV + 2 * from, 2, this->Data.UV + 2 * std::int64_t(count));
       this->Uses[count] = this->Uses[point];
-      moved(std::int32_t(point), count);
     }
     ++count;
   }
@@ -262,6 +261,7 @@ void MeshSlots::Compact(const std::function<void(std::int32_t from, std::int32_t
   this->Changed.Topology = this->Changed.Renumbered = true;
   this->Changed.FirstTriangle = this->TriangleEnd > 0 ? 0 : -1;
   this->Changed.LastTriangle = this->TriangleEnd - 1;
+  return place;
 }
 
 } // namespace nurbs

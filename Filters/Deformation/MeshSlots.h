@@ -79,8 +79,8 @@ public:
   void HideGaps();
   /// True if so many places of points are free that they should be numbered anew.
   bool IsSparse() const;
-  /// Numbers the points anew, without gaps; `moved(from, to)` is told of each, ascending.
-  void Compact(const std::function<void(std::int32_t from, std::int32_t to)>& moved);
+  /// Numbers the points anew, without gaps. Returns the new number of each; -1: it was not in use.
+  std::vector<std::int32_t> Compact();
 
   PointUse& Use(std::int32_t point) { return this->Uses[point]; }
   const PointUse& Use(std::int32_t point) const { return this->Uses[point]; }

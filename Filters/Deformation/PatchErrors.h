@@ -51,14 +51,44 @@ public:
   Vec2 First() const;
   /// The middle of the control points' box.
   Vec3 Middle() const;
-  /// Shares of the longest control vectors, squared, under which normals need care.
-  void Shortest(double (&squared)[2]) const;
 
 private:
+  friend class NetPath;
   int P = 0, Q = 0;
   bool Rational = false;
   ParameterBox Box;
   std::vector<Vec4> Points;
 };
+
+/// The Bezier points of a patch and of the halves of halves of it that a walk through its cells asks for.
+class NetPath
+{
+public:
+  void Start(const BezierNet& net);
+  /// Goes on to a half (0, 1) in a direction, or back.
+  void Push(int direction, int half) { this->Steps.push_back({ direction, half }); }
+  void Pop();
+  /// Bounds over the present part, times the squares and product of its extents: the sum of them, the
+  /// mixed one twice, is 8 times the bound of |S - L|.
+  SecondBound Scaled();
+
+private:
+  const Vec4* Top();
+  struct Step
+  {
+    int Direction, Half;
+  };
+  int P = 0, Q = 0;
+  bool Rational = false;
+  std::vector<Step> Steps;
+  std::vector<std::vector<Vec4>> Levels; ///< After so many steps.
+  std::size_t Made = 0;                  ///< The last of them that is that of the present way.
+  std::vector<Vec3> Less;                ///< The part less a bilinear surface.
+};
+
+/// Squared |S_u| and |S_v| under which a normal needs care: small shares of the longest steps of the
+/// control points that a patch depends on. A matter of cost only, see EvaluatorKernel.h.
+void ShortestDerivatives(
+  const FaceGrid& grid, int patch, bool rational, const Vec4* net, double (&squared)[2]);
 
 } // namespace nurbs

@@ -52,12 +52,13 @@ NURBS_INLINE void SumLines(const PatchUpdate& update, int column, int rows, Line
   }
 }
 
-// The outer sums of one vertex.
-template <typename Quad>
+// The outer sums of one vertex. Rows >= 0: their number, as a constant for the compiler.
+template <typename Quad, int Rows>
 NURBS_INLINE void SumRows(
   const double* sums, const double* N, const double* dN, int rows, Quad& h, Quad& hu, Quad& hv)
 {
-  for (int r = 0; r < rows; ++r)
+  const int count = Rows >= 0 ? Rows : rows;
+  for (int r = 0; r < count; ++r)
   {
     const Quad value = Quad::Load(sums + 8 * r);
     h = h + N[r] * value;
@@ -102,16 +103,22 @@ struct Loop
   std::vector<std::int32_t>& Careful;
 };
 
-template <typename Quad>
-NURBS_INLINE void RunLoop(const Loop& loop)
+template <typename Quad, int Rows>
+NURBS_INLINE void RunLoop(const Loop& loop, bool accumulate, bool keep)
 {
   const PatchUpdate& update = loop.Update;
-  PatchVertices& vertices = loop.Vertices;
   const GridAxis& axis = update.Grid->Axis[1];
-  const int row = update.Grid->Row(update.Patch);
   const int q = axis.Degree();
+  const int rows = loop.Rows;
   const double sign = update.Reversed ? -1.0 : 1.0;
-  const std::size_t count = vertices.Size();
+  const std::size_t count = loop.Vertices.Size();
+  const std::int32_t* const lineU = loop.Vertices.I.data();
+  const std::int32_t* const lineV = loop.Vertices.J.data();
+  const std::int32_t* const places = loop.Vertices.Points.data();
+  double* const all = loop.Vertices.Sums.data();
+  const double* const lineSums = loop.Lines.Values.data();
+  const double* const basis = axis.Basis(update.Grid->Row(update.Patch), 0) + update.FirstRow;
+  const bool rational = update.Rational;
   for (std::size_t first = loop.Begin; first < count; first += 4)
   {
     const int some = int(std::min<std::size_t>(4, count - first));
@@ -121,17 +128,17 @@ NURBS_INLINE void RunLoop(const Loop& loop)
     for (int k = 0; k < some; ++k)
     {
       const std::size_t at = first + k;
-      double* kept = vertices.Sums.data() + at * SumSize;
-      if (update.Accumulate)
+      double* kept = all + at * SumSize;
+      if (accumulate)
       {
         h[k] = Quad::Load(kept);
         hu[k] = Quad::Load(kept + 4);
         hv[k] = Quad::Load(kept + 8);
       }
-      const double* N = axis.Basis(row, vertices.J[at]) + update.FirstRow;
-      SumRows<Quad>(loop.Lines.Values.data() + std::size_t(vertices.I[at]) * loop.Rows * 8, N,
-        N + q + 1, loop.Rows, h[k], hu[k], hv[k]);
-      if (update.Keep)
+      const double* N = basis + std::size_t(lineV[at]) * 2 * (q + 1);
+      SumRows<Quad, Rows>(
+        lineSums + std::size_t(lineU[at]) * rows * 8, N, N + q + 1, rows, h[k], hu[k], hv[k]);
+      if (keep)
       {
         h[k].Store(kept);
         hu[k].Store(kept + 4);
@@ -139,8 +146,8 @@ NURBS_INLINE void RunLoop(const Loop& loop)
       }
     }
     Quad normal[4];
-    const int careful = Project(loop.Directions, update.Rational, true, h, hu, hv, normal);
-    StoreVertices(h, normal, some, vertices.Points.data() + first, sign, loop.Points, loop.Normals);
+    const int careful = Project(loop.Directions, rational, true, h, hu, hv, normal);
+    StoreVertices(h, normal, some, places + first, sign, loop.Points, loop.Normals);
     for (int k = 0; careful != 0 && k < some; ++k)
     {
       if (careful >> k & 1)
@@ -151,11 +158,41 @@ NURBS_INLINE void RunLoop(const Loop& loop)
   }
 }
 
+// What is asked for again as constants for the compiler.
+template <typename Quad, int Rows>
+NURBS_INLINE void RunRows(const Loop& loop)
+{
+  if (loop.Update.Accumulate)
+  {
+    RunLoop<Quad, Rows>(loop, true, true);
+  }
+  else if (loop.Update.Keep)
+  {
+    RunLoop<Quad, Rows>(loop, false, true);
+  }
+  else
+  {
+    RunLoop<Quad, Rows>(loop, false, false);
+  }
+}
+
 template <typename Quad>
 NURBS_INLINE void RunAll(const Loop& loop, LineSums& lines, int column)
 {
   SumLines<Quad>(loop.Update, column, loop.Rows, lines);
-  RunLoop<Quad>(loop);
+  switch (loop.Rows)
+  {
+    case 1:
+      return RunRows<Quad, 1>(loop);
+    case 2:
+      return RunRows<Quad, 2>(loop);
+    case 3:
+      return RunRows<Quad, 3>(loop);
+    case 4:
+      return RunRows<Quad, 4>(loop);
+    default:
+      return RunRows<Quad, -1>(loop);
+  }
 }
 
 NURBS_MULTIVERSION
@@ -183,7 +220,7 @@ std::vector<std::int32_t> UpdateVertices(const PatchUpdate& update, PatchVertice
   {
     vertices.Sums.resize(vertices.Size() * SumSize);
   }
-  DirectionTables directions[2];
+  thread_local DirectionTables directions[2];
   directions[0].Suspicious = update.Shortest[0];
   directions[1].Suspicious = update.Shortest[1];
   const Loop loop{ update, vertices, begin, lines, rows, directions, points, normals, careful };

@@ -8,32 +8,6 @@
 #include <cmath>
 #include <limits>
 
-std::vector<nurbs::Box3> vtkNURBSFaceExtent::FaceBoxes(const nurbs::Model& model,
-  const std::vector<std::string>& faceErrors, const nurbs::ParallelFor& parallel)
-{
-  std::vector<nurbs::Box3> boxes(model.Faces.size());
-  parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f)
-    {
-      if (faceErrors[f].empty())
-      {
-        boxes[f] = nurbs::SampledBox(model, model.Faces[f]);
-      }
-    }
-  });
-  return boxes;
-}
-
-double vtkNURBSFaceExtent::Diagonal(const std::vector<nurbs::Box3>& boxes)
-{
-  nurbs::Box3 all;
-  for (const nurbs::Box3& box : boxes)
-  {
-    all.extend(box);
-  }
-  return all.isEmpty() ? 0.0 : all.diagonal().norm();
-}
-
 std::vector<double> vtkNURBSFaceExtent::PixelTolerances(const std::vector<nurbs::Box3>& boxes,
   vtkCamera* camera, const int viewport[2], double pixels, double least)
 {

@@ -232,8 +232,6 @@ TEST(DenseNet, CutsToTheTrims)
   const std::vector<Vec2> from = { { 300, 400 }, { 301, 400 }, { 301, 402 }, { 300, 402 } };
   const std::vector<Vec2> to = { from[1], from[2], from[3], from[0] };
   const TrimmedFace face(Plane(1000, 1000), from, to);
-  const nurbs::Model& model = face.Assembled.Model;
-  EXPECT_DOUBLE_EQ(nurbs::SampledBox(model, model.Faces[0]).diagonal().norm(), std::sqrt(5.0));
   NetDensity wanted = Wanted(0.1, 3, 10000);
   const DenseNet net = face.Dense(wanted);
   EXPECT_FALSE(net.Capped);
