@@ -49,6 +49,7 @@ namespace
 
 constexpr int MaxNamedFaces = 8;           // in the warning
 constexpr std::int64_t FacesAReport = 256; // from one report of progress to the next
+constexpr std::size_t FewFaces = 256;
 
 /// The output becomes a copy of the input that shares all arrays. Returns the models in it, which
 /// are objects of their own.
@@ -75,6 +76,12 @@ std::vector<vtkUnstructuredGrid*> ShareModels(vtkDataObject* input, vtkDataObjec
     }
   }
   return models;
+}
+
+/// Assemblies have hundreds of models too small to start threads for.
+nurbs::ParallelFor LoopOver(std::size_t faces)
+{
+  return faces < FewFaces ? nurbs::ParallelFor(nurbs::SerialFor) : vtkNURBSParallelFor;
 }
 
 template <typename ArrayType>
@@ -175,7 +182,7 @@ private:
         weights ? toWeight[k] = this->Weights->GetComponent(vtkIdType(id), 0) : 1.0;
       }
     }
-    vtkNURBSParallelFor(0, this->Nets.size(), [&](std::int64_t begin, std::int64_t end) {
+    LoopOver(this->Nets.size())(0, this->Nets.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
         const nurbs::Surface& net = this->Nets[cell].Geometry;
@@ -333,7 +340,7 @@ double vtkNURBSRefinement::AbsoluteSpacing(const std::vector<Part>& parts) const
     {
       errors.push_back(part.View->GetFaceError(vtkIdType(f)));
     }
-    const auto some = nurbs::FaceBoxes(model, errors, vtkNURBSParallelFor);
+    const auto some = nurbs::FaceBoxes(model, errors, LoopOver(errors.size()));
     boxes.insert(boxes.end(), some.begin(), some.end());
   }
   const double diagonal = nurbs::Diagonal(boxes);

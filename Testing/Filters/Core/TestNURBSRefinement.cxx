@@ -2,6 +2,7 @@
 // vtkNURBSRefinement in pipelines: surfaces and trims stay, what is passed on and what is new, caps,
 // composites, bad faces, points that faces share, threads, aborting.
 #include "../../testMessageKeeper.h"
+#include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSRefinement.h"
@@ -10,6 +11,8 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
@@ -134,6 +137,46 @@ TEST(Refinement, SurfacesStayAndNetsGetDense)
       model->GetFieldData()->GetArray("Knots")->GetNumberOfTuples());
     EXPECT_EQ(original->GetPointData()->HasArray("RationalWeights"),
       Output(filter)->GetPointData()->HasArray("RationalWeights"));
+  }
+}
+
+std::vector<vtkUnstructuredGrid*> Leaves(vtkDataObject* data)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  std::vector<vtkUnstructuredGrid*> leaves;
+  vtkSmartPointer<vtkCompositeDataIterator> at;
+  at.TakeReference(composite->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    leaves.push_back(vtkUnstructuredGrid::SafeDownCast(at->GetCurrentDataObject()));
+  }
+  return leaves;
+}
+
+// Trimmed faces of CAD files: nothing that was valid becomes worse, edges still lie on their faces.
+TEST(Refinement, TrimsOfCADFilesStayValid)
+{
+  for (const char* const path : { "/usr/share/opencascade/data/step/linkrods.step",
+         "/usr/share/opencascade/data/step/screw.step" })
+  {
+    SCOPED_TRACE(path);
+    vtkNew<vtkNURBSCADReader> reader;
+    reader->SetFileName(path);
+    vtkNew<Filter> filter;
+    filter->SetInputConnection(reader->GetOutputPort());
+    filter->SetMaximumSpacing(0.01);
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfCappedFaces(), 0);
+    vtkDataObject* model = reader->GetOutputDataObject(0);
+    EXPECT_EQ(
+      vtkNURBSModel::Validate(filter->GetOutputDataObject(0)), vtkNURBSModel::Validate(model));
+    const auto before = Leaves(model), after = Leaves(filter->GetOutputDataObject(0));
+    ASSERT_EQ(before.size(), after.size());
+    for (std::size_t k = 0; k < before.size(); ++k)
+    {
+      ExpectSameSurfaces(before[k], after[k], 0.01 * before[k]->GetLength());
+      EXPECT_EQ(PassedArrays(after[k]), PassedArrays(before[k]));
+    }
   }
 }
 
