@@ -60,8 +60,8 @@ public:
   /// step if nothing changes. What was undone before a step can't be redone after it.
   void Commit(const std::vector<Change>& after);
 
-  /// Between BeginGroup and EndGroup all commits are one step; CancelGroup takes them back. Undo and
-  /// Redo end the group first. Groups do not nest: a second BeginGroup ends the first.
+  /// Between BeginGroup and EndGroup all commits are one step; CancelGroup takes them back. Undo
+  /// and Redo end the group first. Groups do not nest: a second BeginGroup ends the first.
   void BeginGroup();
   void EndGroup();
   void CancelGroup();

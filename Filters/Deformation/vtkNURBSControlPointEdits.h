@@ -8,8 +8,8 @@
  * (shallow copies); so are the points until one is moved. The input is never modified. The array
  * objects of the output's points and weights stay the same from one update to the next, and only
  * entries whose edits changed are written: the first edit copies the array, later ones cost as much
- * as the points that they concern. `RationalWeights` is made, all 1, when a weight of a model without
- * it is edited first.
+ * as the points that they concern. `RationalWeights` is made, all 1, when a weight of a model
+ * without it is edited first.
  *
  * An edit belongs to a control point (the index of a point) of a model, which is named by its flat
  * index in a composite input. Methods that take no block mean the input, or the first model of a
@@ -18,13 +18,13 @@
  *
  * MoveCoincident (default on): control points that are at the same place in the input, as on seams,
  * poles and common edges of faces, are edited together, so that no gap opens. They get the same
- * displacement; their weights are multiplied by the same factor, which keeps two faces together whose
- * weights along their common edge differ by a factor.
+ * displacement; their weights are multiplied by the same factor, which keeps two faces together
+ * whose weights along their common edge differ by a factor.
  *
- * Errors: an edit of a point that does not exist, to a place that is not finite, or to a weight that
- * is not positive and finite is refused as a whole: vtkErrorMacro names the control point, the cells
- * that use it and the reason, the method returns false, and all stays as it was. That needs the
- * input's data. Edits made before it has any are kept and checked in the next update. Edits of
+ * Errors: an edit of a point that does not exist, to a place that is not finite, or to a weight
+ * that is not positive and finite is refused as a whole: vtkErrorMacro names the control point, the
+ * cells that use it and the reason, the method returns false, and all stays as it was. That needs
+ * the input's data. Edits made before it has any are kept and checked in the next update. Edits of
  * points that another input does not have are reported when it comes, and left out.
  *
  * @sa vtkNURBSControlPointWidget
@@ -116,8 +116,8 @@ public:
 
   ///@{
   /**
-   * Take the last edit back, or make it again. False if there is none. A new edit forgets those that
-   * could be made again; one that waits for the input's data can't be made again.
+   * Take the last edit back, or make it again. False if there is none. A new edit forgets those
+   * that could be made again; one that waits for the input's data can't be made again.
    */
   bool Undo();
   bool Redo();
@@ -133,8 +133,8 @@ public:
 
   ///@{
   /**
-   * Edits between BeginGroup and EndGroup are one for Undo; CancelGroup takes them all back. Groups do
-   * not nest. For edits that come in small steps, such as a drag.
+   * Edits between BeginGroup and EndGroup are one for Undo; CancelGroup takes them all back. Groups
+   * do not nest. For edits that come in small steps, such as a drag.
    */
   void BeginGroup();
   void EndGroup();
@@ -143,8 +143,8 @@ public:
 
   ///@{
   /**
-   * Edit all control points of the same model that are at the same place in the input. Concerns edits
-   * to come. Default on.
+   * Edit all control points of the same model that are at the same place in the input. Concerns
+   * edits to come. Default on.
    */
   vtkSetMacro(MoveCoincident, bool);
   vtkGetMacro(MoveCoincident, bool);
@@ -153,8 +153,8 @@ public:
 
   ///@{
   /**
-   * How far apart such points may be, relative to the diagonal of the model's control points. Default
-   * 1e-7, 0 to 1.
+   * How far apart such points may be, relative to the diagonal of the model's control points.
+   * Default 1e-7, 0 to 1.
    */
   vtkSetClampMacro(CoincidenceTolerance, double, 0.0, 1.0);
   vtkGetMacro(CoincidenceTolerance, double);
