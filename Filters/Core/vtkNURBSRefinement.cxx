@@ -94,8 +94,8 @@ vtkSmartPointer<ArrayType> NewArray(const char* name, int components, vtkIdType 
   return array;
 }
 
-/// Puts new nets in the place of a model's, in the arrays that describe them. Cells that have no new
-/// net, bad ones among them, keep theirs.
+/// Puts new nets in the place of a model's, in the arrays that describe them. Cells that have no
+/// new net, bad ones among them, keep theirs.
 class NetWriter
 {
 public:
@@ -130,8 +130,7 @@ private:
   {
     vtkIdType count;
     const vtkIdType* ids;
-    vtkNew<vtkIdList> buffer;
-    this->Grid->GetCells()->GetCellAtId(cell, count, ids, buffer);
+    this->Grid->GetCells()->GetCellAtId(cell, count, ids);
     for (vtkIdType k = 0; k < count; ++k)
     {
       visit(k, ids[k] >= 0 && ids[k] < this->Grid->GetNumberOfPoints() ? ids[k] : -1);

@@ -65,8 +65,8 @@ public:
 
   ///@{
   /**
-   * What MaximumSpacing is measured in: the diagonal of the box around points of all surfaces of the
-   * input (RELATIVE, default), or units of length (ABSOLUTE).
+   * What MaximumSpacing is measured in: the diagonal of the box around points of all surfaces of
+   * the input (RELATIVE, default), or units of length (ABSOLUTE).
    */
   vtkSetClampMacro(SpacingMode, int, RELATIVE, ABSOLUTE);
   vtkGetMacro(SpacingMode, int);
@@ -76,8 +76,9 @@ public:
 
   ///@{
   /**
-   * The most control points that a face gets; its spacing is wider where they do not suffice. A face
-   * that has more already, or would by its degree alone, stays as it is. Default 10,000, at least 4.
+   * The most control points that a face gets; its spacing is wider where they do not suffice. A
+   * face that has more already, or would by its degree alone, stays as it is. Default 10,000, at
+   * least 4.
    */
   vtkSetClampMacro(MaximumControlPoints, vtkIdType, 4, VTK_INT_MAX);
   vtkGetMacro(MaximumControlPoints, vtkIdType);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkNURBSRefinement in pipelines: surfaces and trims stay, what is passed on and what is new, caps,
-// composites, bad faces, points that faces share, threads, aborting.
+// vtkNURBSRefinement in pipelines: surfaces and trims stay, what is passed on and what is new,
+// caps, composites, bad faces, points that faces share, threads, aborting.
 #include "../../testMessageKeeper.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
@@ -236,8 +236,8 @@ TEST(Refinement, DenseModelsArePassedOn)
   EXPECT_EQ(Output(filter)->GetCells(), teapot->GetCells());
 }
 
-// Three squares of degree 1 in a row that share points: the wide one is refined, the others keep their
-// nets, and the points that they have in common.
+// Three squares of degree 1 in a row that share points: the wide one is refined, the others keep
+// their nets, and the points that they have in common.
 TEST(Refinement, FacesThatStayShareTheirPoints)
 {
   auto grid = Grid::New();

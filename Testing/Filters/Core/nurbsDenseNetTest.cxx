@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense control nets: the surface stays (against B-splines by definition in long double), spacing and
-// degree are reached, caps hold, cuts leave trims alone, and bends follow as the bound says.
+// Dense control nets: the surface stays (against B-splines by definition in long double), spacing
+// and degree are reached, caps hold, cuts leave trims alone, and bends follow as the bound says.
 #include "DenseNet.h"
 #include "ModelBuilder.h"
 #include "nurbsReference.h"
@@ -279,8 +279,8 @@ TEST(DenseNet, CutsMakeNoThinSpans)
   }
 }
 
-// Bends x to x + a (x^2 + y^2) e_z, second derivatives up to M = 2 a. Bicubic nets with even knots are
-// off by M h^2 / 3 inside, and by half of that at a border, where points lie along one line.
+// Bends x to x + a (x^2 + y^2) e_z, second derivatives up to M = 2 a. Bicubic nets with even knots
+// are off by M h^2 / 3 inside, and by half of that at a border, where points lie along one line.
 TEST(DenseNet, BendsFollowWithTheSquareOfTheSpacing)
 {
   const double a = 0.7;
