@@ -108,6 +108,8 @@ private:
   bool IsTouched(const DeformingEdge& edge) const;
   bool Honour(const RefinementRequests& requests);
   void Share(bool measure);
+  void ForFaces(const std::function<void(std::int64_t)>& f);
+  void SumErrors();
   void MarkChanges();
   void Finish();
   double Scale(const Viewer* viewer, const Vec3& place) const;
@@ -126,9 +128,13 @@ private:
   double BytesOfControl = 0.0; ///< A control point's share of MemoryLimit.
   double Size = 0.0;           ///< Of the first frame's control points.
   bool HadViewer = false;
+  bool Making = true;        ///< The frame makes cells, even if others do not.
   std::vector<double> GapAt; ///< Of vertices, then of edges: distance of the faces there.
   FrameReport Report;
+  std::vector<double> FaceError;
+  std::vector<std::int64_t> FaceCapped;
   std::vector<unsigned char> Changed;
+  std::vector<std::int32_t> Marked; ///< Those that are 1 in Changed.
 };
 
 } // namespace nurbs
