@@ -163,7 +163,7 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
 // Edges, cells and triangles, until the zones are within the tolerance, too.
 void DeformingModel::Rebuild(const Viewer* viewer)
 {
-  const bool refine = this->Options.Refine && this->Options.FixedDepth < 0;
+  const bool refine = this->Refines();
   for (int round = 0; round < MaximumRounds; ++round)
   {
     this->UpdateEdges(viewer, refine && round == 0);
@@ -335,7 +335,7 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
   this->Report.UpdatedVertices = std::accumulate(updated.begin(), updated.end(), std::int64_t(0));
   this->Share(false);
   this->Report.MoveSeconds = watch.Lap();
-  if (this->Options.Refine && this->Options.FixedDepth < 0)
+  if (this->Refines())
   {
     const bool everything = viewer != nullptr || this->HadViewer || this->Coarsening > 1.0;
     this->HadViewer = viewer != nullptr;
@@ -395,7 +395,7 @@ void DeformingModel::SumErrors()
 {
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
-    if (this->Faces[f] && this->FaceTouched[f] && (this->Options.Refine || this->Making))
+    if (this->Faces[f] && this->FaceTouched[f] && (this->Refines() || this->Making))
     {
       this->FaceError[f] = this->Faces[f]->ErrorBound();
       this->FaceCapped[f] = this->Faces[f]->CappedCells();
@@ -437,41 +437,28 @@ void DeformingModel::Finish()
   this->SumErrors();
   this->Making = false;
   this->Report.ErrorBound += this->Report.ModelGap;
-  this->MarkChanges();
 }
 
-void DeformingModel::MarkChanges()
+std::vector<unsigned char> DeformingModel::ChangedPoints() const
 {
   const MeshSlots::Changes& changes = this->Slots.GetChanges();
   const std::size_t count = std::size_t(this->Slots.Arrays().PointCount);
-  for (const std::int32_t point : this->Marked)
+  std::vector<unsigned char> changed(count, changes.Renumbered ? 1 : 0);
+  for (const std::int32_t point : changes.Added)
   {
-    if (std::size_t(point) < this->Changed.size())
+    if (std::size_t(point) < count)
     {
-      this->Changed[point] = 0;
+      changed[point] = 1;
     }
   }
-  this->Marked.clear();
-  this->Changed.resize(count, 0);
-  const auto mark = [&](std::int32_t point) {
-    if (std::size_t(point) < count && !this->Changed[point])
-    {
-      this->Changed[point] = 1;
-      this->Marked.push_back(point);
-    }
-  };
-  for (std::size_t point = 0; changes.Renumbered && point < count; ++point)
-  {
-    mark(std::int32_t(point));
-  }
-  std::for_each(changes.Added.begin(), changes.Added.end(), mark);
   for (const std::unique_ptr<DeformingFace>& face : this->Faces)
   {
     if (face && face->HasMoved())
     {
-      face->ForMoved(mark);
+      face->ForMoved([&](std::int32_t point) { changed[point] = 1; });
     }
   }
+  return changed;
 }
 
 std::int64_t DeformingModel::BytesOfSums() const

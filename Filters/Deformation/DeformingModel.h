@@ -82,7 +82,7 @@ public:
   /// What the constructor (or Replace) did.
   const FrameReport& FirstFrame() const { return this->Report; }
   /// True for points that the last frame moved or added; one a point of the mesh.
-  const std::vector<unsigned char>& ChangedPoints() const { return this->Changed; }
+  std::vector<unsigned char> ChangedPoints() const;
   std::int64_t BytesOfSums() const;
   const DeformingFace* GetFace(std::int64_t face) const { return this->Faces[face].get(); }
 
@@ -110,8 +110,8 @@ private:
   void Share(bool measure);
   void ForFaces(const std::function<void(std::int64_t)>& f);
   void SumErrors();
-  void MarkChanges();
   void Finish();
+  bool Refines() const { return this->Options.Refine && this->Options.FixedDepth < 0; }
   double Scale(const Viewer* viewer, const Vec3& place) const;
 
   DeformingOptions Options;
@@ -133,8 +133,6 @@ private:
   FrameReport Report;
   std::vector<double> FaceError;
   std::vector<std::int64_t> FaceCapped;
-  std::vector<unsigned char> Changed;
-  std::vector<std::int32_t> Marked; ///< Those that are 1 in Changed.
 };
 
 } // namespace nurbs
