@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ContourTrim.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+namespace
+{
+
+// What is as near to a trim curve, of the domain, runs along it.
+constexpr double AlongShare = 1e-7;
+
+ContourPoint Between(const ContourPoint& a, const ContourPoint& b, double t)
+{
+  return { (1.0 - t) * a.UV + t * b.UV, (1.0 - t) * a.Point + t * b.Point, 0.0 };
+}
+
+Box3 Flat(const Box2& box)
+{
+  return Box3(Vec3(box.min()[0], box.min()[1], 0.0), Vec3(box.max()[0], box.max()[1], 0.0));
+}
+
+// normal . view at the point of the surface, and the point.
+double Cosine(const SurfaceView& surface, const Viewer& viewer, const Vec2& uv, Vec3& point)
+{
+  const SurfaceDerivatives d = EvaluateDerivatives(surface, uv[0], uv[1], 1);
+  point = d.S;
+  const Vec3 normal = d.Su.cross(d.Sv);
+  const Vec3 view = viewer.Toward(d.S);
+  const double length = normal.norm() * view.norm();
+  return length > 0.0 ? normal.dot(view) / length : 0.0;
+}
+
+double LengthOf(const std::vector<ContourPoint>& points)
+{
+  double length = 0.0;
+  for (std::size_t k = 1; k < points.size(); ++k)
+  {
+    length += (points[k].Point - points[k - 1].Point).norm();
+  }
+  return length;
+}
+
+// Parts of a closed contour, from `first` on: it was cut at its first point, too, where the last part
+// goes on in the first one.
+void JoinEnds(std::size_t first, std::vector<TrimmedContour>& out)
+{
+  if (out.size() == first || out.back().Ends[1].Curve >= 0 || out[first].Ends[0].Curve >= 0)
+  {
+    return;
+  }
+  TrimmedContour& head = out[first];
+  TrimmedContour& tail = out.back();
+  if (&head == &tail)
+  {
+    head.Contour.Closed = true;
+    head.Contour.Points.pop_back();
+  }
+  else if (head.Along == tail.Along)
+  {
+    tail.Contour.Points.insert(
+      tail.Contour.Points.end(), head.Contour.Points.begin() + 1, head.Contour.Points.end());
+    tail.Ends[1] = head.Ends[1];
+    head = std::move(tail);
+    out.pop_back();
+  }
+}
+
+} // namespace
+
+ContourTrimmer::ContourTrimmer(
+  const Model& model, std::int64_t face, const Viewer& viewer, double precision)
+  : Source(model)
+  , Owner(model.Faces[face])
+  , View(viewer)
+  , Precision(precision)
+  , Trim(model, face)
+  , Size(this->Owner.Geometry.Domain(0).Length(), this->Owner.Geometry.Domain(1).Length())
+{
+  std::vector<Box3> boxes;
+  for (std::int64_t l = 0; l < this->Owner.LoopCount; ++l)
+  {
+    const TrimLoop& loop = model.Loops[this->Owner.FirstLoop + l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      for (BezierCurve<2>& bezier : ToBezier(model.TrimCurves[c].Geometry))
+      {
+        Box2 box;
+        for (const Vec3& h : bezier.Points)
+        {
+          box.extend(Vec2(h.head<2>() / h[2]));
+        }
+        boxes.push_back(Flat(box));
+        this->Pieces.push_back({ c, std::move(bezier) });
+      }
+    }
+  }
+  this->Tree.Build(boxes, AlongShare * this->Size.maxCoeff());
+}
+
+// Moves a crossing along the trim curve till it lies on the contour: Steffensen's method, as long as
+// it stays within the precision.
+void ContourTrimmer::Sharpen(const Piece& piece, double t, Crossing& crossing) const
+{
+  const SurfaceView& surface = this->Owner.Geometry;
+  const auto evaluate = [&](double s, ContourPoint& point) {
+    point.UV = piece.Bezier.Evaluate(s);
+    for (int dir = 0; dir < 2; ++dir)
+    {
+      point.UV[dir] = surface.Domain(dir).Clamp(point.UV[dir]);
+    }
+    point.Cosine = Cosine(surface, this->View, point.UV, point.Point);
+    return point.Cosine;
+  };
+  ContourPoint best;
+  double value = evaluate(t, best);
+  const Vec3 start = best.Point;
+  double before = t + (t < 0.5 ? 1e-6 : -1e-6);
+  ContourPoint other;
+  double valueBefore = evaluate(before, other);
+  for (int k = 0; k < 20 && std::abs(value) > 1e-15 && value != valueBefore; ++k)
+  {
+    const double next = t - value * (t - before) / (value - valueBefore);
+    if (!(next >= 0.0 && next <= 1.0))
+    {
+      break;
+    }
+    const double valueNext = evaluate(next, other);
+    if (!(std::abs(valueNext) < std::abs(value)) ||
+      (other.Point - start).norm() > 4.0 * this->Precision)
+    {
+      break;
+    }
+    before = t;
+    valueBefore = value;
+    t = next;
+    value = valueNext;
+    best = other;
+  }
+  crossing.Point = best;
+  crossing.Trim.Curve = piece.Curve;
+  crossing.Trim.Parameter = piece.Bezier.T0 + t * (piece.Bezier.T1 - piece.Bezier.T0);
+}
+
+// Where the chord from a to b meets trim curves.
+void ContourTrimmer::FindCrossings(
+  const Vec2& a, const Vec2& b, std::size_t segment, std::vector<Crossing>& out) const
+{
+  Box2 box(a);
+  box.extend(b);
+  const Box3 flat = Flat(box);
+  // Scaled to the domain, as u and v need not have the same unit.
+  const Vec2 scale = this->Size.cwiseInverse();
+  const Vec2 along = (b - a).cwiseProduct(scale);
+  const Vec2 across(-along[1], along[0]);
+  const double length = along.squaredNorm();
+  if (!(length > 0.0))
+  {
+    return;
+  }
+  this->Tree.Search([&](const Box3& bounds) { return bounds.intersects(flat); },
+    [&](std::int32_t index, const Box3&) {
+      const Piece& piece = this->Pieces[index];
+      std::vector<double> distance;
+      for (const Vec3& h : piece.Bezier.Points)
+      {
+        distance.push_back(across.dot((h.head<2>() - a * h[2]).cwiseProduct(scale)));
+      }
+      for (const double t : SignChanges(distance))
+      {
+        const double share = along.dot((piece.Bezier.Evaluate(t) - a).cwiseProduct(scale)) / length;
+        if (share >= 0.0 && share < 1.0)
+        {
+          Crossing crossing;
+          crossing.Segment = segment;
+          crossing.Share = share;
+          this->Sharpen(piece, t, crossing);
+          out.push_back(crossing);
+        }
+      }
+    });
+}
+
+std::vector<ContourTrimmer::Crossing> ContourTrimmer::AllCrossings(
+  const std::vector<ContourPoint>& points) const
+{
+  std::vector<Crossing> out;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+  {
+    const std::size_t first = out.size();
+    this->FindCrossings(points[k].UV, points[k + 1].UV, k, out);
+    std::sort(
+      out.begin() + std::ptrdiff_t(first), out.end(), [](const Crossing& a, const Crossing& b) {
+        return a.Share != b.Share ? a.Share < b.Share : a.Trim.Curve < b.Trim.Curve;
+      });
+  }
+  return out;
+}
+
+// Where a part between two crossings lies: looked at in its middle, and beside its middle.
+ContourTrimmer::Place ContourTrimmer::Locate(const std::vector<ContourPoint>& points) const
+{
+  // The longest chord in the middle half.
+  const std::size_t chords = points.size() - 1;
+  std::size_t longest = chords / 2;
+  double length = -1.0;
+  for (std::size_t k = chords / 4; k <= std::min(chords - 1, 3 * chords / 4); ++k)
+  {
+    const double d = (points[k + 1].UV - points[k].UV).cwiseQuotient(this->Size).norm();
+    if (d > length)
+    {
+      length = d;
+      longest = k;
+    }
+  }
+  const Vec2 a = points[longest].UV;
+  const Vec2 b = points[longest + 1].UV;
+  const Vec2 direction = (b - a).cwiseQuotient(this->Size).normalized();
+  const Vec2 aside = AlongShare * Vec2(-direction[1], direction[0]).cwiseProduct(this->Size);
+  int along = 0;
+  for (const double share : { 0.25, 0.5, 0.75 })
+  {
+    const Vec2 p = a + share * (b - a);
+    const Vec2 left = p + aside;
+    const Vec2 right = p - aside;
+    along += this->Trim.Inside(left[0], left[1]) != this->Trim.Inside(right[0], right[1]);
+  }
+  if (along == 3)
+  {
+    return Place::Along;
+  }
+  const Vec2 middle = 0.5 * (a + b);
+  return this->Trim.Inside(middle[0], middle[1]) ? Place::Inside : Place::Outside;
+}
+
+// The trim curve nearest to a point, of those within reach; -1: none.
+std::int64_t ContourTrimmer::CurveAt(const Vec2& uv) const
+{
+  constexpr int Samples = 64;
+  const Vec2 reach = 2.0 * AlongShare * this->Size;
+  const Box3 flat = Flat(Box2(Vec2(uv - reach), Vec2(uv + reach)));
+  double nearest = 1e300;
+  std::int64_t curve = -1;
+  this->Tree.Search([&](const Box3& bounds) { return bounds.intersects(flat); },
+    [&](std::int32_t index, const Box3&) {
+      const Piece& piece = this->Pieces[index];
+      const auto distance = [&](double t) {
+        return (piece.Bezier.Evaluate(t) - uv).cwiseQuotient(this->Size).norm();
+      };
+      double best = 0.0;
+      for (int k = 0; k <= Samples; ++k)
+      {
+        best = distance(double(k) / Samples) < distance(best) ? double(k) / Samples : best;
+      }
+      double low = std::max(0.0, best - 1.0 / Samples);
+      double high = std::min(1.0, best + 1.0 / Samples);
+      for (int k = 0; k < 60; ++k)
+      {
+        const double third = (high - low) / 3.0;
+        const bool left = distance(low + third) < distance(high - third);
+        (left ? high : low) += left ? -third : third;
+      }
+      const double d = distance(0.5 * (low + high));
+      if (d < nearest || (d == nearest && piece.Curve < curve))
+      {
+        nearest = d;
+        curve = piece.Curve;
+      }
+    });
+  return nearest <= 10.0 * AlongShare ? curve : -1;
+}
+
+void ContourTrimmer::Add(const SurfaceContour& contour, std::vector<ContourPoint> points,
+  Place place, const TrimCrossing& start, const TrimCrossing& end,
+  std::vector<TrimmedContour>& out) const
+{
+  TrimmedContour piece;
+  piece.Contour.Kind = contour.Kind;
+  piece.Contour.Points = std::move(points);
+  piece.Ends[0] = start;
+  piece.Ends[1] = end;
+  if (place == Place::Along || contour.Kind == ContourArcKind::Border)
+  {
+    const std::vector<ContourPoint>& p = piece.Contour.Points;
+    const std::size_t k = (p.size() - 1) / 2;
+    piece.Along = this->CurveAt(Between(p[k], p[k + 1], 0.5).UV);
+  }
+  out.push_back(std::move(piece));
+}
+
+void ContourTrimmer::Cut(const SurfaceContour& contour, std::vector<TrimmedContour>& out) const
+{
+  std::vector<ContourPoint> points = contour.Points;
+  if (points.size() < 2)
+  {
+    return;
+  }
+  if (contour.Closed)
+  {
+    points.push_back(points.front());
+  }
+  const std::vector<Crossing> crossings =
+    this->Trim.IsWhole() ? std::vector<Crossing>() : this->AllCrossings(points);
+  if (crossings.empty())
+  {
+    const Place place = this->Trim.IsWhole() ? Place::Inside : this->Locate(points);
+    if (place != Place::Outside)
+    {
+      this->Add(contour, contour.Points, place, {}, {}, out);
+      out.back().Contour.Closed = contour.Closed;
+    }
+    return;
+  }
+  // The parts between crossings; those of the same kind that follow each other are one.
+  std::vector<ContourPoint> part{ points.front() };
+  std::vector<ContourPoint> current;
+  Place currentPlace = Place::Outside;
+  TrimCrossing start, last;
+  const std::size_t firstOut = out.size();
+  const auto flush = [&](const TrimCrossing& end) {
+    if (current.size() > 1 && currentPlace != Place::Outside)
+    {
+      this->Add(contour, std::move(current), currentPlace, start, end, out);
+    }
+    current.clear();
+  };
+  const auto close = [&](const TrimCrossing& end) {
+    // What is left of a contour that ends on a trim curve is too short to be anywhere.
+    if (LengthOf(part) <= 1e-3 * this->Precision)
+    {
+      last = end.Curve >= 0 ? end : last;
+      return;
+    }
+    const Place place = this->Locate(part);
+    if (!current.empty() && place == currentPlace)
+    {
+      current.insert(current.end(), part.begin() + 1, part.end());
+    }
+    else
+    {
+      flush(last);
+      current = part;
+      currentPlace = place;
+      start = last;
+    }
+    last = end;
+  };
+  std::size_t next = 0;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+  {
+    for (; next < crossings.size() && crossings[next].Segment == k; ++next)
+    {
+      part.push_back(crossings[next].Point);
+      close(crossings[next].Trim);
+      part.assign(1, crossings[next].Point);
+    }
+    part.push_back(points[k + 1]);
+  }
+  close({});
+  flush(last);
+  if (contour.Closed)
+  {
+    JoinEnds(firstOut, out);
+  }
+}
+
+} // namespace nurbs

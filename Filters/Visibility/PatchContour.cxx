@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PatchContour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace nurbs
+{
+
+namespace
+{
+
+// Cells are split beside their middle: shapes are often symmetric, and contours then run through or
+// along the middle.
+constexpr double SplitPlaces[2] = { 0.4861, 0.5317 };
+constexpr int MaxChordDepth = 30;
+constexpr std::size_t MaxSingularPoints = 16;
+constexpr double SmallestStep = 1e-12; // Of a patch's parameter.
+
+struct Cell
+{
+  double Range[2][2] = { { 0.0, 1.0 }, { 0.0, 1.0 } }; ///< Direction; low, high.
+  BernsteinForm G;
+  int Depth = 0;
+
+  double Width(int dir) const { return this->Range[dir][1] - this->Range[dir][0]; }
+};
+
+ContourPoint MakePoint(const BezierPatch& patch, const Vec2& st, const ContourValue& value)
+{
+  return { Vec2(patch.U.Min + st[0] * patch.U.Length(), patch.V.Min + st[1] * patch.V.Length()),
+    value.Point, value.Cosine };
+}
+
+// -1, 0 (both), 1: the sign of all coefficients.
+int SignOf(const BernsteinForm& g)
+{
+  bool negative = false;
+  bool positive = false;
+  for (const double c : g.Coefficients)
+  {
+    (c < 0.0 ? negative : positive) = true;
+    if (negative && positive)
+    {
+      return 0;
+    }
+  }
+  return positive ? 1 : -1;
+}
+
+// The same of all differences in direction `dir`, that is of the derivative; 0, too, if one of them
+// could be rounding.
+int SlopeSign(const BernsteinForm& g, int dir, double rounding)
+{
+  const int width = g.Degree[0] + 1;
+  const int step = dir == 0 ? 1 : width;
+  int sign = 0;
+  for (int j = 0; j <= g.Degree[1] - (dir == 1); ++j)
+  {
+    for (int i = 0; i <= g.Degree[0] - (dir == 0); ++i)
+    {
+      const int k = i + j * width;
+      const double d = g.Coefficients[k + step] - g.Coefficients[k];
+      const int s = d > rounding ? 1 : (d < -rounding ? -1 : 0);
+      if (s == 0 || (sign != 0 && s != sign))
+      {
+        return 0;
+      }
+      sign = s;
+    }
+  }
+  return sign;
+}
+
+// Largest second difference: what keeps the slope from having one sign.
+double Bend(const BernsteinForm& g, int dir)
+{
+  const int width = g.Degree[0] + 1;
+  const int step = dir == 0 ? 1 : width;
+  double largest = 0.0;
+  for (int j = 0; j <= g.Degree[1] - 2 * (dir == 1); ++j)
+  {
+    for (int i = 0; i <= g.Degree[0] - 2 * (dir == 0); ++i)
+    {
+      const double* c = g.Coefficients.data() + i + j * width;
+      largest = std::max(largest, std::abs(c[0] - 2.0 * c[step] + c[2 * step]));
+    }
+  }
+  return largest;
+}
+
+} // namespace
+
+double DistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+  const Vec3 ab = b - a;
+  const double length = ab.squaredNorm();
+  const double t = length > 0.0 ? std::min(1.0, std::max(0.0, (p - a).dot(ab) / length)) : 0.0;
+  return (p - a - t * ab).norm();
+}
+
+ContourLine& SideLine(PatchContour& patch, int dir, int end)
+{
+  std::shared_ptr<ContourLine>& line = patch.Sides[dir][end];
+  if (!line)
+  {
+    line = std::make_shared<ContourLine>();
+    std::vector<double> c = patch.G.OnLine(dir, end);
+    for (double& x : c)
+    {
+      x += ContourZero * patch.Scale;
+    }
+    line->At = SignChanges(c);
+    line->Node.assign(line->At.size(), -1);
+  }
+  return *line;
+}
+
+int LineNode(const PatchContour& patch, const Viewer& viewer, ContourLine& line, int dir, double at,
+  std::size_t k, std::vector<ContourPoint>& nodes)
+{
+  if (line.Node[k] >= 0)
+  {
+    return line.Node[k];
+  }
+  // Newton's method along the line, on the surface itself; not far from where the polynomial's root
+  // is, and not where the side itself belongs to the contour.
+  constexpr double Reach = 1e-4;
+  const double start = line.At[k];
+  const int along = 1 - dir;
+  const auto evaluate = [&](double t) {
+    return EvaluateContour(*patch.Patch, viewer, dir == 0 ? at : t, dir == 0 ? t : at);
+  };
+  double best = start;
+  const int end = at == 1.0 ? 1 : 0;
+  const bool side = at == 0.0 || at == 1.0;
+  ContourValue value = evaluate(start);
+  if (!side || !(patch.IsPole[dir][end] || patch.IsZero[dir][end]))
+  {
+    double t = start;
+    ContourValue next = value;
+    for (int i = 0; i < 12 && std::abs(value.Cosine) > 1e-15 && next.Gradient[along] != 0.0; ++i)
+    {
+      t -= next.Cosine / next.Gradient[along];
+      if (!(std::abs(t - start) <= Reach && t >= 0.0 && t <= 1.0))
+      {
+        break;
+      }
+      next = evaluate(t);
+      if (!(std::abs(next.Cosine) < std::abs(value.Cosine)))
+      {
+        break;
+      }
+      value = next;
+      best = t;
+    }
+  }
+  value.Cosine = side && patch.IsPole[dir][end] ? 0.0 : value.Cosine;
+  line.At[k] = best;
+  line.Node[k] = static_cast<int>(nodes.size());
+  nodes.push_back(MakePoint(*patch.Patch, dir == 0 ? Vec2(at, best) : Vec2(best, at), value));
+  return line.Node[k];
+}
+
+namespace
+{
+
+// A node on a cell's side.
+struct SideNode
+{
+  int Node;
+  Vec2 ST; ///< In the patch's parameters.
+};
+
+class Tracer
+{
+public:
+  Tracer(PatchContour& patch, const Viewer& viewer, const ContourLimits& limits,
+    std::vector<ContourPoint>& nodes, std::vector<ContourArc>& arcs)
+    : Source(patch)
+    , View(viewer)
+    , Limits(limits)
+    , Nodes(nodes)
+    , Arcs(arcs)
+  {}
+
+  void Run();
+
+private:
+  bool Finish(const Cell& cell);
+  bool IsSmall(const Cell& cell) const;
+  void Divide(const Cell& cell);
+  void FinishMonotone(const Cell& cell, int slopeDir, int slope, bool both);
+  void FinishSingular(const Cell& cell);
+  void AddArc(const Cell& cell, ContourArc arc);
+  void NoteSingular(const Cell& cell);
+  std::vector<SideNode> NodesOf(const Cell& cell);
+  void AddSide(const Cell& cell, int dir, int end, bool backwards, std::vector<SideNode>& out);
+  ContourLine& LineAt(int dir, double at);
+  ContourPoint Solve(
+    const Cell& cell, int slopeDir, int slope, double x, double guess, double* found);
+  void Trace(const Cell& cell, int slopeDir, int slope, bool both, const SideNode& a,
+    const SideNode& b, std::vector<ContourPoint>& out);
+
+  PatchContour& Source;
+  const Viewer& View;
+  const ContourLimits& Limits;
+  std::vector<ContourPoint>& Nodes;
+  std::vector<ContourArc>& Arcs;
+  BernsteinForm Whole; ///< G + ContourZero * Scale.
+  std::map<std::pair<int, double>, ContourLine> Lines;
+  std::deque<Cell> Queue;
+};
+
+void Tracer::Run()
+{
+  Cell first;
+  first.G = this->Source.G;
+  for (double& c : first.G.Coefficients)
+  {
+    c += ContourZero * this->Source.Scale;
+  }
+  this->Whole = first.G;
+  this->Queue.push_back(std::move(first));
+  int cells = 0;
+  while (!this->Queue.empty())
+  {
+    const Cell cell = std::move(this->Queue.front());
+    this->Queue.pop_front();
+    if (this->Finish(cell))
+    {
+      continue;
+    }
+    if (++cells > this->Limits.MaximumCells)
+    {
+      ++this->Source.UnresolvedCells;
+      this->NoteSingular(cell);
+    }
+    else if (this->IsSmall(cell))
+    {
+      this->FinishSingular(cell);
+    }
+    else
+    {
+      this->Divide(cell);
+    }
+  }
+}
+
+// True if the cell needs no division.
+bool Tracer::Finish(const Cell& cell)
+{
+  const int sign = SignOf(cell.G);
+  if (sign != 0)
+  {
+    (sign > 0 ? this->Source.HasFront : this->Source.HasBack) = true;
+    return true;
+  }
+  const double rounding = 1e-16 * this->Source.Scale;
+  const int slopes[2] = { SlopeSign(cell.G, 0, rounding), SlopeSign(cell.G, 1, rounding) };
+  if (slopes[0] == 0 && slopes[1] == 0)
+  {
+    return false;
+  }
+  this->Source.HasFront = this->Source.HasBack = true;
+  const int dir = slopes[1] != 0 ? 1 : 0;
+  this->FinishMonotone(cell, dir, slopes[dir], slopes[0] != 0 && slopes[1] != 0);
+  return true;
+}
+
+bool Tracer::IsSmall(const Cell& cell) const
+{
+  if (cell.Width(0) < SmallestStep || cell.Width(1) < SmallestStep)
+  {
+    return true;
+  }
+  if (cell.Depth < 6)
+  {
+    return false;
+  }
+  const auto corner = [&](int i, int j) {
+    return EvaluatePatch(*this->Source.Patch, cell.Range[0][i], cell.Range[1][j]);
+  };
+  const Vec3 c[4] = { corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1) };
+  double size = std::max((c[2] - c[0]).norm(), (c[3] - c[1]).norm());
+  for (int k = 0; k < 4 && size <= this->Limits.Smallest; ++k)
+  {
+    size = std::max(size, (c[k] - c[(k + 1) % 4]).norm());
+  }
+  return size <= this->Limits.Smallest;
+}
+
+void Tracer::Divide(const Cell& cell)
+{
+  const double bends[2] = { Bend(cell.G, 0), Bend(cell.G, 1) };
+  int dir = bends[0] > bends[1] || (bends[0] == bends[1] && cell.Width(0) >= cell.Width(1)) ? 0 : 1;
+  constexpr double MostUneven = 8.0;
+  if (cell.Width(1 - dir) > MostUneven * cell.Width(dir))
+  {
+    dir = 1 - dir;
+  }
+  const double share = SplitPlaces[cell.Depth % 2];
+  Cell low, high;
+  low.Depth = high.Depth = cell.Depth + 1;
+  std::copy(&cell.Range[0][0], &cell.Range[0][0] + 4, &low.Range[0][0]);
+  std::copy(&cell.Range[0][0], &cell.Range[0][0] + 4, &high.Range[0][0]);
+  const double middle = cell.Range[dir][0] + share * cell.Width(dir);
+  low.Range[dir][1] = high.Range[dir][0] = middle;
+  Split(cell.G, dir, share, low.G, high.G);
+  this->Queue.push_back(std::move(low));
+  this->Queue.push_back(std::move(high));
+}
+
+ContourLine& Tracer::LineAt(int dir, double at)
+{
+  if (at == 0.0 || at == 1.0)
+  {
+    return SideLine(this->Source, dir, at == 1.0 ? 1 : 0);
+  }
+  const auto found = this->Lines.find({ dir, at });
+  if (found != this->Lines.end())
+  {
+    return found->second;
+  }
+  ContourLine& line = this->Lines[{ dir, at }];
+  line.At = SignChanges(this->Whole.OnLine(dir, at));
+  line.Node.assign(line.At.size(), -1);
+  return line;
+}
+
+void Tracer::AddSide(const Cell& cell, int dir, int end, bool backwards, std::vector<SideNode>& out)
+{
+  const double at = cell.Range[dir][end];
+  const double* range = cell.Range[1 - dir];
+  ContourLine& line = this->LineAt(dir, at);
+  const std::size_t first = out.size();
+  for (std::size_t k = 0; k < line.At.size(); ++k)
+  {
+    if (line.At[k] >= range[0] && (line.At[k] < range[1] || (range[1] == 1.0 && line.At[k] == 1.0)))
+    {
+      const int node = LineNode(this->Source, this->View, line, dir, at, k, this->Nodes);
+      const double t = line.At[k];
+      out.push_back({ node, dir == 0 ? Vec2(at, t) : Vec2(t, at) });
+    }
+  }
+  if (backwards)
+  {
+    std::reverse(out.begin() + first, out.end());
+  }
+}
+
+// The nodes on the sides, counter-clockwise from the low corner.
+std::vector<SideNode> Tracer::NodesOf(const Cell& cell)
+{
+  std::vector<SideNode> out;
+  this->AddSide(cell, 1, 0, false, out);
+  this->AddSide(cell, 0, 1, false, out);
+  this->AddSide(cell, 1, 1, true, out);
+  this->AddSide(cell, 0, 0, true, out);
+  return out;
+}
+
+// The point of the contour where the other parameter is x: by Newton's method within the cell.
+ContourPoint Tracer::Solve(
+  const Cell& cell, int slopeDir, int slope, double x, double guess, double* found)
+{
+  double low = cell.Range[slopeDir][0];
+  double high = cell.Range[slopeDir][1];
+  double t = std::min(high, std::max(low, guess));
+  double best = t;
+  ContourValue bestValue;
+  bestValue.Cosine = 2.0;
+  for (int k = 0; k < 80; ++k)
+  {
+    const ContourValue value = EvaluateContour(
+      *this->Source.Patch, this->View, slopeDir == 0 ? t : x, slopeDir == 0 ? x : t);
+    if (std::abs(value.Cosine) < std::abs(bestValue.Cosine))
+    {
+      bestValue = value;
+      best = t;
+    }
+    if (std::abs(value.Cosine) < 1e-15)
+    {
+      break;
+    }
+    (value.Cosine * slope < 0.0 ? low : high) = t;
+    const double steep = value.Gradient[slopeDir];
+    double next = steep * slope > 0.0 ? t - value.Cosine / steep : 0.5 * (low + high);
+    const bool inside = next > low && next < high;
+    if (inside && std::abs(next - t) <= 2e-16)
+    {
+      break;
+    }
+    next = inside ? next : 0.5 * (low + high);
+    if (next == t || !(high - low > 1e-16))
+    {
+      break;
+    }
+    t = next;
+  }
+  *found = best;
+  return MakePoint(*this->Source.Patch, slopeDir == 0 ? Vec2(best, x) : Vec2(x, best), bestValue);
+}
+
+// The points between two nodes that one branch joins.
+void Tracer::Trace(const Cell& cell, int slopeDir, int slope, bool both, const SideNode& a,
+  const SideNode& b, std::vector<ContourPoint>& out)
+{
+  // Of two parameters that both can lead, the one that changes more: the contour is less steep.
+  if (both &&
+    std::abs(b.ST[slopeDir] - a.ST[slopeDir]) > std::abs(b.ST[1 - slopeDir] - a.ST[1 - slopeDir]))
+  {
+    slopeDir = 1 - slopeDir;
+    slope = SlopeSign(cell.G, slopeDir, 0.0);
+  }
+  const int lead = 1 - slopeDir;
+  // Known points of the branch, for guesses.
+  std::map<double, double> known{ { 0.0, a.ST[slopeDir] }, { 1.0, b.ST[slopeDir] } };
+  const auto at = [&](double t) {
+    const auto above = known.lower_bound(t);
+    const auto below = std::prev(above);
+    const double part = (t - below->first) / (above->first - below->first);
+    const double guess = below->second + part * (above->second - below->second);
+    double found = guess;
+    const ContourPoint point =
+      this->Solve(cell, slopeDir, slope, a.ST[lead] + t * (b.ST[lead] - a.ST[lead]), guess, &found);
+    known.emplace(t, found);
+    return point;
+  };
+  RefineChord(at, this->Limits.Precision, 0.0, this->Nodes[a.Node], 1.0, this->Nodes[b.Node],
+    MaxChordDepth, out);
+}
+
+void Tracer::FinishMonotone(const Cell& cell, int slopeDir, int slope, bool both)
+{
+  std::vector<SideNode> ends = this->NodesOf(cell);
+  const int lead = 1 - slopeDir;
+  std::stable_sort(ends.begin(), ends.end(),
+    [lead](const SideNode& a, const SideNode& b) { return a.ST[lead] < b.ST[lead]; });
+  const bool forward = (slope > 0) == (lead == 0);
+  for (std::size_t k = 0; k + 1 < ends.size(); k += 2)
+  {
+    if (ends[k].Node == ends[k + 1].Node)
+    {
+      continue;
+    }
+    ContourArc arc;
+    this->Trace(cell, slopeDir, slope, both, ends[k], ends[k + 1], arc.Inner);
+    arc.Start = ends[k].Node;
+    arc.End = ends[k + 1].Node;
+    if (!forward)
+    {
+      std::swap(arc.Start, arc.End);
+      std::reverse(arc.Inner.begin(), arc.Inner.end());
+    }
+    this->AddArc(cell, std::move(arc));
+  }
+}
+
+// Adds an arc if some point of it belongs to the contour.
+void Tracer::AddArc(const Cell& cell, ContourArc arc)
+{
+  const auto isExact = [](const ContourPoint& p) { return std::abs(p.Cosine) <= ContourCosine; };
+  if (isExact(this->Nodes[arc.Start]) || isExact(this->Nodes[arc.End]) ||
+    std::any_of(arc.Inner.begin(), arc.Inner.end(), isExact))
+  {
+    this->Arcs.push_back(std::move(arc));
+    return;
+  }
+  ++this->Source.SingularCells;
+  this->NoteSingular(cell);
+}
+
+void Tracer::NoteSingular(const Cell& cell)
+{
+  if (this->Source.Singular.size() < MaxSingularPoints)
+  {
+    const Vec2 st(
+      0.5 * (cell.Range[0][0] + cell.Range[0][1]), 0.5 * (cell.Range[1][0] + cell.Range[1][1]));
+    this->Source.Singular.push_back(MakePoint(
+      *this->Source.Patch, st, EvaluateContour(*this->Source.Patch, this->View, st[0], st[1])));
+  }
+}
+
+// Joins the nodes on the sides of a smallest cell: where g becomes negative on the way around, a
+// branch enters; it leaves where g becomes positive again.
+void Tracer::FinishSingular(const Cell& cell)
+{
+  this->Source.HasFront = this->Source.HasBack = true;
+  ++this->Source.SingularCells;
+  this->NoteSingular(cell);
+  const std::vector<SideNode> ends = this->NodesOf(cell);
+  const std::size_t first = cell.G.Coefficients[0] < 0.0 ? 1 : 0;
+  for (std::size_t k = first; k < ends.size() && ends.size() > 1; k += 2)
+  {
+    const SideNode& leaving = ends[(k + 1) % ends.size()];
+    if (ends[k].Node != leaving.Node)
+    {
+      ContourArc arc;
+      arc.Start = ends[k].Node;
+      arc.End = leaving.Node;
+      this->AddArc(cell, std::move(arc));
+    }
+  }
+}
+
+} // namespace
+
+void TracePatch(PatchContour& patch, const Viewer& viewer, const ContourLimits& limits,
+  std::vector<ContourPoint>& nodes, std::vector<ContourArc>& arcs)
+{
+  Tracer(patch, viewer, limits, nodes, arcs).Run();
+}
+
+} // namespace nurbs
