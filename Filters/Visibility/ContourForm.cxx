@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace nurbs
 {
@@ -51,7 +52,7 @@ using Net = std::vector<Vec3>; // Homogeneous in the plane of the image.
 
 // H seen along three axes: two across the view and the view itself (perspective) or the weight. Two
 // of them are measured from the patch's middle, so that g does not suffer from its place.
-Net ProjectedNet(const BezierPatch& patch, const Viewer& viewer, double& scale)
+Net ProjectedNet(const BezierPatch& patch, const Viewer& viewer, ContourForm& form)
 {
   Box3 box;
   double weight = 0.0;
@@ -96,7 +97,13 @@ Net ProjectedNet(const BezierPatch& patch, const Viewer& viewer, double& scale)
       step[1] = j > 0 ? std::max(step[1], (centred[k] - centred[k - width]).norm()) : step[1];
     }
   }
-  scale = step[0] * step[1] * view * (rational ? weight : 1.0);
+  form.Scale = step[0] * step[1] * view * (rational ? weight : 1.0);
+  // Differences of control points are as inexact as the points.
+  constexpr double Epsilon = 4.0 * std::numeric_limits<double>::epsilon();
+  const double place = weight * box.max().cwiseAbs().cwiseMax(box.min().cwiseAbs()).maxCoeff();
+  const double inexact =
+    (step[0] > 0.0 ? place / step[0] : 0.0) + (step[1] > 0.0 ? place / step[1] : 0.0);
+  form.Rounding = Epsilon * form.Scale * (4.0 + inexact);
   return net;
 }
 
@@ -262,7 +269,7 @@ ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, dou
 ContourForm MakeContourForm(const BezierPatch& patch, const Viewer& viewer)
 {
   ContourForm out;
-  const Net net = ProjectedNet(patch, viewer, out.Scale);
+  const Net net = ProjectedNet(patch, viewer, out);
   bool planar = !viewer.Perspective;
   for (const Vec4& h : patch.Points)
   {

@@ -55,6 +55,8 @@ struct ContourForm
   BernsteinForm G;
   /// Product of the largest factors of |w^3 S_u x S_v . V|: what g is small or large against.
   double Scale = 0.0;
+  /// What rounding of the control points and of g's own computation can amount to.
+  double Rounding = 0.0;
 };
 
 /// The polynomial g, positive where S_u x S_v faces the viewer.

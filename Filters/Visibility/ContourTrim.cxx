@@ -12,6 +12,8 @@ namespace
 
 // What is as near to a trim curve, of the domain, runs along it.
 constexpr double AlongShare = 1e-7;
+// Each makes a chord four times as near to the contour.
+constexpr int MaxHalvings = 16;
 
 ContourPoint Between(const ContourPoint& a, const ContourPoint& b, double t)
 {
@@ -23,15 +25,16 @@ Box3 Flat(const Box2& box)
   return Box3(Vec3(box.min()[0], box.min()[1], 0.0), Vec3(box.max()[0], box.max()[1], 0.0));
 }
 
-// normal . view at the point of the surface, and the point.
-double Cosine(const SurfaceView& surface, const Viewer& viewer, const Vec2& uv, Vec3& point)
+// Puts a point on the surface at uv.
+ContourPoint PointAt(const SurfaceView& surface, const Viewer& viewer, const Vec2& uv)
 {
-  const SurfaceDerivatives d = EvaluateDerivatives(surface, uv[0], uv[1], 1);
-  point = d.S;
-  const Vec3 normal = d.Su.cross(d.Sv);
-  const Vec3 view = viewer.Toward(d.S);
-  const double length = normal.norm() * view.norm();
-  return length > 0.0 ? normal.dot(view) / length : 0.0;
+  ContourPoint out;
+  out.UV = Vec2(surface.Domain(0).Clamp(uv[0]), surface.Domain(1).Clamp(uv[1]));
+  out.Point = Evaluate(surface, out.UV[0], out.UV[1]);
+  const Vec3 view = viewer.Toward(out.Point);
+  const double length = view.norm();
+  out.Cosine = length > 0.0 ? Normal(surface, out.UV[0], out.UV[1]).dot(view) / length : 1.0;
+  return out;
 }
 
 double LengthOf(const std::vector<ContourPoint>& points)
@@ -101,52 +104,75 @@ ContourTrimmer::ContourTrimmer(
   this->Tree.Build(boxes, AlongShare * this->Size.maxCoeff());
 }
 
-// Moves a crossing along the trim curve till it lies on the contour: Steffensen's method, as long as
-// it stays within the precision.
-void ContourTrimmer::Sharpen(const Piece& piece, double t, Crossing& crossing) const
+// Moves a crossing along the trim curve till it lies on the contour, by the secant. False if that
+// fails or leaves the place.
+bool ContourTrimmer::Sharpen(const Piece& piece, double t, Crossing& crossing) const
 {
-  const SurfaceView& surface = this->Owner.Geometry;
-  const auto evaluate = [&](double s, ContourPoint& point) {
-    point.UV = piece.Bezier.Evaluate(s);
-    for (int dir = 0; dir < 2; ++dir)
-    {
-      point.UV[dir] = surface.Domain(dir).Clamp(point.UV[dir]);
-    }
-    point.Cosine = Cosine(surface, this->View, point.UV, point.Point);
-    return point.Cosine;
+  const auto evaluate = [&](double s) {
+    return PointAt(this->Owner.Geometry, this->View, piece.Bezier.Evaluate(s));
   };
-  ContourPoint best;
-  double value = evaluate(t, best);
+  ContourPoint best = evaluate(t);
   const Vec3 start = best.Point;
   double before = t + (t < 0.5 ? 1e-6 : -1e-6);
-  ContourPoint other;
-  double valueBefore = evaluate(before, other);
-  for (int k = 0; k < 20 && std::abs(value) > 1e-15 && value != valueBefore; ++k)
+  double valueBefore = evaluate(before).Cosine;
+  for (int k = 0; k < 20 && std::abs(best.Cosine) > 1e-15 && best.Cosine != valueBefore; ++k)
   {
-    const double next = t - value * (t - before) / (value - valueBefore);
+    const double next = t - best.Cosine * (t - before) / (best.Cosine - valueBefore);
     if (!(next >= 0.0 && next <= 1.0))
     {
       break;
     }
-    const double valueNext = evaluate(next, other);
-    if (!(std::abs(valueNext) < std::abs(value)) ||
-      (other.Point - start).norm() > 4.0 * this->Precision)
+    const ContourPoint point = evaluate(next);
+    if (!(std::abs(point.Cosine) < std::abs(best.Cosine)) ||
+      (point.Point - start).norm() > 4.0 * this->Precision)
     {
       break;
     }
     before = t;
-    valueBefore = value;
+    valueBefore = best.Cosine;
     t = next;
-    value = valueNext;
-    best = other;
+    best = point;
   }
   crossing.Point = best;
   crossing.Trim.Curve = piece.Curve;
   crossing.Trim.Parameter = piece.Bezier.T0 + t * (piece.Bezier.T1 - piece.Bezier.T0);
+  return std::abs(best.Cosine) <= 0.1 * ContourCosine;
 }
 
-// Where the chord from a to b meets trim curves.
-void ContourTrimmer::FindCrossings(
+// The point of the contour nearest to the middle of a chord, about: by Newton's method along the
+// gradient of normal . view. False: it fails or leaves the place.
+bool ContourTrimmer::FindMiddle(
+  const ContourPoint& a, const ContourPoint& b, ContourPoint& middle) const
+{
+  const SurfaceView& surface = this->Owner.Geometry;
+  middle = PointAt(surface, this->View, 0.5 * (a.UV + b.UV));
+  for (int k = 0; k < 20 && std::abs(middle.Cosine) > 1e-14; ++k)
+  {
+    const SurfaceDerivatives d = EvaluateDerivatives(surface, middle.UV[0], middle.UV[1], 2);
+    const Vec3 view = this->View.Toward(d.S).normalized();
+    const double length = d.Su.cross(d.Sv).norm();
+    const Vec2 gradient(this->Size[0] * (d.Suu.cross(d.Sv) + d.Su.cross(d.Suv)).dot(view),
+      this->Size[1] * (d.Suv.cross(d.Sv) + d.Su.cross(d.Svv)).dot(view));
+    const double steep = gradient.squaredNorm();
+    if (!(length > 0.0 && steep > 0.0))
+    {
+      return false;
+    }
+    const Vec2 step = (-middle.Cosine * length / steep * gradient).cwiseProduct(this->Size);
+    const ContourPoint next = PointAt(surface, this->View, middle.UV + step);
+    if (!(std::abs(next.Cosine) < std::abs(middle.Cosine)))
+    {
+      break;
+    }
+    middle = next;
+  }
+  const double chord = (b.Point - a.Point).norm();
+  return std::abs(middle.Cosine) <= 0.1 * ContourCosine &&
+    (middle.Point - 0.5 * (a.Point + b.Point)).norm() < 0.5 * chord;
+}
+
+// Where the chord from a to b meets trim curves. False if a crossing is not one of the contour itself.
+bool ContourTrimmer::FindCrossings(
   const Vec2& a, const Vec2& b, std::size_t segment, std::vector<Crossing>& out) const
 {
   Box2 box(a);
@@ -157,9 +183,11 @@ void ContourTrimmer::FindCrossings(
   const Vec2 along = (b - a).cwiseProduct(scale);
   const Vec2 across(-along[1], along[0]);
   const double length = along.squaredNorm();
+  const std::size_t first = out.size();
+  bool sharp = true;
   if (!(length > 0.0))
   {
-    return;
+    return true;
   }
   this->Tree.Search([&](const Box3& bounds) { return bounds.intersects(flat); },
     [&](std::int32_t index, const Box3&) {
@@ -177,27 +205,34 @@ void ContourTrimmer::FindCrossings(
           Crossing crossing;
           crossing.Segment = segment;
           crossing.Share = share;
-          this->Sharpen(piece, t, crossing);
+          sharp = this->Sharpen(piece, t, crossing) && sharp;
           out.push_back(crossing);
         }
       }
     });
+  std::sort(
+    out.begin() + std::ptrdiff_t(first), out.end(), [](const Crossing& x, const Crossing& y) {
+      return x.Share != y.Share ? x.Share < y.Share : x.Trim.Curve < y.Trim.Curve;
+    });
+  return sharp;
 }
 
-std::vector<ContourTrimmer::Crossing> ContourTrimmer::AllCrossings(
-  const std::vector<ContourPoint>& points) const
+// The crossings between points k and k + 1. Where chord and contour cross trim curves differently the
+// chord is halved, which appends points.
+void ContourTrimmer::AddSegment(const ContourPoint& a, const ContourPoint& b, int depth,
+  std::vector<ContourPoint>& points, std::vector<Crossing>& crossings) const
 {
-  std::vector<Crossing> out;
-  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+  const std::size_t first = crossings.size();
+  ContourPoint middle;
+  if (!this->FindCrossings(a.UV, b.UV, points.size() - 1, crossings) && depth > 0 &&
+    this->FindMiddle(a, b, middle))
   {
-    const std::size_t first = out.size();
-    this->FindCrossings(points[k].UV, points[k + 1].UV, k, out);
-    std::sort(
-      out.begin() + std::ptrdiff_t(first), out.end(), [](const Crossing& a, const Crossing& b) {
-        return a.Share != b.Share ? a.Share < b.Share : a.Trim.Curve < b.Trim.Curve;
-      });
+    crossings.resize(first);
+    this->AddSegment(a, middle, depth - 1, points, crossings);
+    this->AddSegment(middle, b, depth - 1, points, crossings);
+    return;
   }
-  return out;
+  points.push_back(b);
 }
 
 // Where a part between two crossings lies: looked at in its middle, and beside its middle.
@@ -293,17 +328,25 @@ void ContourTrimmer::Add(const SurfaceContour& contour, std::vector<ContourPoint
 
 void ContourTrimmer::Cut(const SurfaceContour& contour, std::vector<TrimmedContour>& out) const
 {
-  std::vector<ContourPoint> points = contour.Points;
-  if (points.size() < 2)
+  if (contour.Points.size() < 2)
   {
     return;
   }
-  if (contour.Closed)
+  std::vector<ContourPoint> points(1, contour.Points.front());
+  std::vector<Crossing> crossings;
+  const std::size_t count = contour.Points.size();
+  for (std::size_t k = 1; k < count + (contour.Closed ? 1 : 0); ++k)
   {
-    points.push_back(points.front());
+    if (this->Trim.IsWhole())
+    {
+      points.push_back(contour.Points[k % count]);
+    }
+    else
+    {
+      const int depth = contour.Kind == ContourArcKind::Inner ? MaxHalvings : 0;
+      this->AddSegment(points.back(), contour.Points[k % count], depth, points, crossings);
+    }
   }
-  const std::vector<Crossing> crossings =
-    this->Trim.IsWhole() ? std::vector<Crossing>() : this->AllCrossings(points);
   if (crossings.empty())
   {
     const Place place = this->Trim.IsWhole() ? Place::Inside : this->Locate(points);

@@ -28,12 +28,16 @@ struct TrimmedContour
 
 /// Cuts the contours of one face. Crossings are the common roots of trim curve and contour function:
 /// found on the polyline's chords by the signs of the trim curve's distance in Bernstein form, then
-/// moved along the exact trim curve to normal . view = 0.
+/// moved along the exact trim curve to normal . view = 0. Where a chord crosses a trim curve but the
+/// contour does not, or elsewhere, the chord is divided on the exact contour first.
 class ContourTrimmer
 {
 public:
   /// The model must outlive the trimmer.
   ContourTrimmer(const Model& model, std::int64_t face, const Viewer& viewer, double precision);
+
+  /// True if a point is inside the face.
+  bool IsInside(const Vec2& uv) const { return this->Trim.Inside(uv[0], uv[1]); }
 
   /// Appends what is inside the face. What runs along a trim curve (within 1e-7 of the domain)
   /// counts as inside.
@@ -60,12 +64,14 @@ private:
     Along
   };
 
-  void FindCrossings(
+  bool FindCrossings(
     const Vec2& a, const Vec2& b, std::size_t segment, std::vector<Crossing>& out) const;
-  void Sharpen(const Piece& piece, double t, Crossing& crossing) const;
+  bool Sharpen(const Piece& piece, double t, Crossing& crossing) const;
+  bool FindMiddle(const ContourPoint& a, const ContourPoint& b, ContourPoint& middle) const;
+  void AddSegment(const ContourPoint& a, const ContourPoint& b, int depth,
+    std::vector<ContourPoint>& points, std::vector<Crossing>& crossings) const;
   Place Locate(const std::vector<ContourPoint>& points) const;
   std::int64_t CurveAt(const Vec2& uv) const;
-  std::vector<Crossing> AllCrossings(const std::vector<ContourPoint>& points) const;
   void Add(const SurfaceContour& contour, std::vector<ContourPoint> points, Place place,
     const TrimCrossing& start, const TrimCrossing& end, std::vector<TrimmedContour>& out) const;
 

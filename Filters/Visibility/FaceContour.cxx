@@ -125,6 +125,7 @@ void SurfaceTracer::MakeForm(PatchContour& patch)
   ContourForm form = MakeContourForm(*patch.Patch, this->View);
   patch.G = std::move(form.G);
   patch.Scale = form.Scale;
+  patch.Rounding = form.Rounding;
   patch.EdgeOn = !(patch.G.Magnitude() > ContourZero * patch.Scale);
   for (int side = 0; side < 4 && !patch.EdgeOn; ++side)
   {

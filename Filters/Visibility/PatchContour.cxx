@@ -49,28 +49,34 @@ int SignOf(const BernsteinForm& g)
   return positive ? 1 : -1;
 }
 
-// The same of all differences in direction `dir`, that is of the derivative; 0, too, if one of them
-// could be rounding.
-int SlopeSign(const BernsteinForm& g, int dir, double rounding)
+// What the differences in direction `dir`, that is the derivative, have in common.
+struct Slope
+{
+  int Sign = 0;       ///< 0: not the same, or one of them could be rounding.
+  double Least = 0.0; ///< Smallest magnitude.
+};
+
+Slope SlopeOf(const BernsteinForm& g, int dir, double rounding)
 {
   const int width = g.Degree[0] + 1;
   const int step = dir == 0 ? 1 : width;
-  int sign = 0;
+  Slope out;
   for (int j = 0; j <= g.Degree[1] - (dir == 1); ++j)
   {
     for (int i = 0; i <= g.Degree[0] - (dir == 0); ++i)
     {
       const int k = i + j * width;
       const double d = g.Coefficients[k + step] - g.Coefficients[k];
-      const int s = d > rounding ? 1 : (d < -rounding ? -1 : 0);
-      if (s == 0 || (sign != 0 && s != sign))
+      const int sign = d > rounding ? 1 : (d < -rounding ? -1 : 0);
+      if (sign == 0 || (out.Sign != 0 && sign != out.Sign))
       {
-        return 0;
+        return Slope();
       }
-      sign = s;
+      out.Least = out.Sign == 0 ? std::abs(d) : std::min(out.Least, std::abs(d));
+      out.Sign = sign;
     }
   }
-  return sign;
+  return out;
 }
 
 // Largest second difference: what keeps the slope from having one sign.
@@ -109,7 +115,7 @@ ContourLine& SideLine(PatchContour& patch, int dir, int end)
     std::vector<double> c = patch.G.OnLine(dir, end);
     for (double& x : c)
     {
-      x += ContourZero * patch.Scale;
+      x += patch.Rounding;
     }
     line->At = SignChanges(c);
     line->Node.assign(line->At.size(), -1);
@@ -191,7 +197,7 @@ private:
   bool Finish(const Cell& cell);
   bool IsSmall(const Cell& cell) const;
   void Divide(const Cell& cell);
-  void FinishMonotone(const Cell& cell, int slopeDir, int slope, bool both);
+  void FinishMonotone(const Cell& cell, const Slope (&slopes)[2]);
   void FinishSingular(const Cell& cell);
   void AddArc(const Cell& cell, ContourArc arc);
   void NoteSingular(const Cell& cell);
@@ -200,15 +206,15 @@ private:
   ContourLine& LineAt(int dir, double at);
   ContourPoint Solve(
     const Cell& cell, int slopeDir, int slope, double x, double guess, double* found);
-  void Trace(const Cell& cell, int slopeDir, int slope, bool both, const SideNode& a,
-    const SideNode& b, std::vector<ContourPoint>& out);
+  void Trace(const Cell& cell, const Slope (&slopes)[2], const SideNode& a, const SideNode& b,
+    std::vector<ContourPoint>& out);
 
   PatchContour& Source;
   const Viewer& View;
   const ContourLimits& Limits;
   std::vector<ContourPoint>& Nodes;
   std::vector<ContourArc>& Arcs;
-  BernsteinForm Whole; ///< G + ContourZero * Scale.
+  BernsteinForm Whole; ///< G + Rounding.
   std::map<std::pair<int, double>, ContourLine> Lines;
   std::deque<Cell> Queue;
 };
@@ -219,7 +225,7 @@ void Tracer::Run()
   first.G = this->Source.G;
   for (double& c : first.G.Coefficients)
   {
-    c += ContourZero * this->Source.Scale;
+    c += this->Source.Rounding;
   }
   this->Whole = first.G;
   this->Queue.push_back(std::move(first));
@@ -257,15 +263,14 @@ bool Tracer::Finish(const Cell& cell)
     (sign > 0 ? this->Source.HasFront : this->Source.HasBack) = true;
     return true;
   }
-  const double rounding = 1e-16 * this->Source.Scale;
-  const int slopes[2] = { SlopeSign(cell.G, 0, rounding), SlopeSign(cell.G, 1, rounding) };
-  if (slopes[0] == 0 && slopes[1] == 0)
+  const Slope slopes[2] = { SlopeOf(cell.G, 0, this->Source.Rounding),
+    SlopeOf(cell.G, 1, this->Source.Rounding) };
+  if (slopes[0].Sign == 0 && slopes[1].Sign == 0)
   {
     return false;
   }
   this->Source.HasFront = this->Source.HasBack = true;
-  const int dir = slopes[1] != 0 ? 1 : 0;
-  this->FinishMonotone(cell, dir, slopes[dir], slopes[0] != 0 && slopes[1] != 0);
+  this->FinishMonotone(cell, slopes);
   return true;
 }
 
@@ -404,16 +409,14 @@ ContourPoint Tracer::Solve(
 }
 
 // The points between two nodes that one branch joins.
-void Tracer::Trace(const Cell& cell, int slopeDir, int slope, bool both, const SideNode& a,
-  const SideNode& b, std::vector<ContourPoint>& out)
+void Tracer::Trace(const Cell& cell, const Slope (&slopes)[2], const SideNode& a, const SideNode& b,
+  std::vector<ContourPoint>& out)
 {
   // Of two parameters that both can lead, the one that changes more: the contour is less steep.
-  if (both &&
-    std::abs(b.ST[slopeDir] - a.ST[slopeDir]) > std::abs(b.ST[1 - slopeDir] - a.ST[1 - slopeDir]))
-  {
-    slopeDir = 1 - slopeDir;
-    slope = SlopeSign(cell.G, slopeDir, 0.0);
-  }
+  const bool both = slopes[0].Sign != 0 && slopes[1].Sign != 0;
+  const Vec2 way = (b.ST - a.ST).cwiseAbs();
+  const int slopeDir = both ? (way[1] > way[0] ? 0 : 1) : (slopes[1].Sign != 0 ? 1 : 0);
+  const int slope = slopes[slopeDir].Sign;
   const int lead = 1 - slopeDir;
   // Known points of the branch, for guesses.
   std::map<double, double> known{ { 0.0, a.ST[slopeDir] }, { 1.0, b.ST[slopeDir] } };
@@ -432,9 +435,11 @@ void Tracer::Trace(const Cell& cell, int slopeDir, int slope, bool both, const S
     MaxChordDepth, out);
 }
 
-void Tracer::FinishMonotone(const Cell& cell, int slopeDir, int slope, bool both)
+void Tracer::FinishMonotone(const Cell& cell, const Slope (&slopes)[2])
 {
   std::vector<SideNode> ends = this->NodesOf(cell);
+  const int slopeDir = slopes[1].Least >= slopes[0].Least ? 1 : 0;
+  const int slope = slopes[slopeDir].Sign;
   const int lead = 1 - slopeDir;
   std::stable_sort(ends.begin(), ends.end(),
     [lead](const SideNode& a, const SideNode& b) { return a.ST[lead] < b.ST[lead]; });
@@ -446,7 +451,7 @@ void Tracer::FinishMonotone(const Cell& cell, int slopeDir, int slope, bool both
       continue;
     }
     ContourArc arc;
-    this->Trace(cell, slopeDir, slope, both, ends[k], ends[k + 1], arc.Inner);
+    this->Trace(cell, slopes, ends[k], ends[k + 1], arc.Inner);
     arc.Start = ends[k].Node;
     arc.End = ends[k + 1].Node;
     if (!forward)
@@ -468,8 +473,11 @@ void Tracer::AddArc(const Cell& cell, ContourArc arc)
     this->Arcs.push_back(std::move(arc));
     return;
   }
-  ++this->Source.SingularCells;
-  this->NoteSingular(cell);
+  if ((this->Nodes[arc.Start].Point - this->Nodes[arc.End].Point).norm() > this->Limits.Smallest)
+  {
+    ++this->Source.SingularCells;
+    this->NoteSingular(cell);
+  }
 }
 
 void Tracer::NoteSingular(const Cell& cell)

@@ -6,13 +6,14 @@
 /// cases and leaves closed contours out (Ruan, Zhang, Yong 2006, figure 3 and table 1). Here the
 /// patch is divided until the coefficients of each cell's polynomial g have one sign (no contour), or
 /// those of g_u or g_v have: then no contour is closed in the cell, each value of the other parameter
-/// has one point of it at most, and the roots of g on the cell's sides tell all its branches. A
-/// contour that rounding can't tell from g = 0 is not sought: g is looked at where it passes through
-/// -1e-11 of its scale, which makes every position general; the points are then moved to g = 0.
+/// has one point of it at most, and the roots of g on the cell's sides tell all its branches. g is
+/// looked at where it passes through minus its rounding error, which makes every position general;
+/// the points are then moved to g = 0.
 #pragma once
 
 #include "ContourForm.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -65,8 +66,9 @@ struct ContourLimits
 struct PatchContour
 {
   const BezierPatch* Patch = nullptr;
-  BernsteinForm G;     ///< Without the factors of the sides.
-  double Scale = 0.0;  ///< Of G.
+  BernsteinForm G;    ///< Without the factors of the sides.
+  double Scale = 0.0; ///< Of G; see ContourForm.
+  double Rounding = 0.0;
   bool EdgeOn = false; ///< G vanishes.
   /// Sides (direction, end) on which g vanishes: a pole, or the contour runs along it.
   bool IsPole[2][2] = { { false, false }, { false, false } };
@@ -81,7 +83,7 @@ struct PatchContour
   std::vector<ContourPoint> Singular; ///< The middles of the first of either.
 };
 
-/// Share of g's scale that counts as 0.
+/// Share of g's scale up to which a patch counts as edge-on, and g as 0 along a side.
 inline constexpr double ContourZero = 1e-11;
 
 /// Finds the contour of a patch; appends to `nodes` and `arcs`. Lines that the patch has been given
@@ -112,19 +114,26 @@ void RefineChord(const At& at, double precision, double ta, const ContourPoint& 
   {
     return;
   }
-  // Chords are kept to less than the precision, so that what lies between the samples is within it.
+  // Chords are kept to less than the precision, so that what lies between the samples is within it;
+  // a curve that turns between two of them shows by their distance.
   constexpr double Share = 0.9;
+  constexpr double LargestGap = 0.6;
   const double tm = 0.5 * (ta + tb);
   const ContourPoint middle = at(tm);
-  bool close = DistanceToSegment(middle.Point, a.Point, b.Point) <= Share * precision;
-  for (int k = 1; close && k < 4; k += 2)
+  if (DistanceToSegment(middle.Point, a.Point, b.Point) <= Share * precision)
   {
-    close =
-      DistanceToSegment(at(ta + 0.25 * k * (tb - ta)).Point, a.Point, b.Point) <= Share * precision;
-  }
-  if (close)
-  {
-    return;
+    const Vec3 first = at(0.5 * (ta + tm)).Point;
+    const Vec3 last = at(0.5 * (tm + tb)).Point;
+    const double gaps[4] = { (first - a.Point).norm(), (middle.Point - first).norm(),
+      (last - middle.Point).norm(), (b.Point - last).norm() };
+    const double sum = gaps[0] + gaps[1] + gaps[2] + gaps[3];
+    const double gap = std::max(std::max(gaps[0], gaps[1]), std::max(gaps[2], gaps[3]));
+    if (DistanceToSegment(first, a.Point, b.Point) <= Share * precision &&
+      DistanceToSegment(last, a.Point, b.Point) <= Share * precision &&
+      (gap <= LargestGap * sum || sum <= precision))
+    {
+      return;
+    }
   }
   RefineChord(at, precision, ta, a, tm, middle, depth - 1, out);
   out.push_back(middle);

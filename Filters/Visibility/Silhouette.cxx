@@ -40,6 +40,7 @@ public:
 private:
   void TraceFaces(Silhouettes& out);
   void TraceFace(std::int64_t face, FaceSilhouette& status, std::vector<SilhouetteLine>& lines);
+  void CheckCosines(SilhouetteLine& line) const;
   void TraceEdges(Silhouettes& out);
   void DropShort(std::vector<SilhouetteLine>& lines) const;
   void DropRepeated(std::vector<SilhouetteLine>& lines) const;
@@ -71,21 +72,33 @@ bool SilhouetteMaker::Step()
   return !this->Aborted;
 }
 
-std::string StatusMessage(const SurfaceContours& contours, const Viewer& viewer, double smallest)
+std::string StatusMessage(
+  const SurfaceContours& contours, const ContourPoint& first, const Viewer& viewer, double smallest)
 {
-  for (const ContourPoint& point : contours.Singular)
+  if (viewer.Perspective && (first.Point - viewer.Place).norm() <= 10.0 * smallest)
   {
-    if (viewer.Perspective && (point.Point - viewer.Place).norm() <= 10.0 * smallest)
-    {
-      return "the eye lies on the surface";
-    }
+    return "the eye lies on the surface";
   }
-  const ContourPoint& first = contours.Singular.front();
   const std::string place =
     "(" + std::to_string(first.UV[0]) + ", " + std::to_string(first.UV[1]) + ")";
   return contours.UnresolvedCells > 0
     ? std::to_string(contours.UnresolvedCells) + " cells are not resolved, one at " + place
     : "normal . view is singular at " + place;
+}
+
+// Looks again at points where normal . view is not 0: at poles that are some rounding wide the product
+// of the derivatives says nothing, but the limit of the normals does.
+void SilhouetteMaker::CheckCosines(SilhouetteLine& line) const
+{
+  const SurfaceView& surface = this->Whole.Data.Faces[line.Face].Geometry;
+  for (ContourPoint& point : line.Points)
+  {
+    const Vec3 view = this->View.Toward(point.Point);
+    if (std::abs(point.Cosine) > ContourCosine && !view.isZero(0.0))
+    {
+      point.Cosine = Normal(surface, point.UV[0], point.UV[1]).dot(view.normalized());
+    }
+  }
 }
 
 void SilhouetteMaker::TraceFace(
@@ -99,17 +112,24 @@ void SilhouetteMaker::TraceFace(
   const SurfaceContours contours = TraceSurface(
     source.Geometry, source.Reversed, LoopsBox(this->Whole.Data, source), this->View, limits);
   std::copy(contours.Patches, contours.Patches + PatchVisibilityCount, status.Patches);
-  if (contours.SingularCells + contours.UnresolvedCells > 0)
-  {
-    status.Status =
-      contours.UnresolvedCells > 0 ? SilhouetteStatus::Capped : SilhouetteStatus::Singular;
-    status.Message = StatusMessage(contours, this->View, limits.Smallest);
-  }
-  if (contours.Contours.empty() || !this->Options.Kinds[0])
+  const bool singular = contours.SingularCells + contours.UnresolvedCells > 0;
+  if (!singular && (contours.Contours.empty() || !this->Options.Kinds[0]))
   {
     return;
   }
   const ContourTrimmer trimmer(this->Whole.Data, face, this->View, this->Options.Precision);
+  const auto inside = std::find_if(contours.Singular.begin(), contours.Singular.end(),
+    [&](const ContourPoint& point) { return trimmer.IsInside(point.UV); });
+  if (singular && inside != contours.Singular.end())
+  {
+    status.Status =
+      contours.UnresolvedCells > 0 ? SilhouetteStatus::Capped : SilhouetteStatus::Singular;
+    status.Message = StatusMessage(contours, *inside, this->View, limits.Smallest);
+  }
+  if (!this->Options.Kinds[0])
+  {
+    return;
+  }
   std::vector<TrimmedContour> pieces;
   for (const SurfaceContour& contour : contours.Contours)
   {
@@ -123,6 +143,7 @@ void SilhouetteMaker::TraceFace(
     line.Crease = piece.Contour.Kind == ContourArcKind::Crease;
     line.Closed = piece.Contour.Closed;
     line.Points = std::move(piece.Contour.Points);
+    this->CheckCosines(line);
     line.Ends[0] = piece.Ends[0];
     line.Ends[1] = piece.Ends[1];
     lines.push_back(std::move(line));
@@ -197,6 +218,22 @@ void SilhouetteMaker::TraceEdges(Silhouettes& out)
   }
 }
 
+// Where a line comes near to a pole, the apex of a cone for example, normal . view loses its digits.
+void DropInexactEnds(std::vector<ContourPoint>& points, double reach)
+{
+  const auto isInexact = [&](const ContourPoint& end, const ContourPoint& next) {
+    return std::abs(end.Cosine) > ContourCosine && (end.Point - next.Point).norm() <= reach;
+  };
+  while (points.size() > 2 && isInexact(points.back(), points[points.size() - 2]))
+  {
+    points.pop_back();
+  }
+  while (points.size() > 2 && isInexact(points[0], points[1]))
+  {
+    points.erase(points.begin());
+  }
+}
+
 // Points that follow each other at the same place become one, lines of no length vanish; what they
 // joined is as near to each other.
 void SilhouetteMaker::DropShort(std::vector<SilhouetteLine>& lines) const
@@ -219,6 +256,7 @@ void SilhouetteMaker::DropShort(std::vector<SilhouetteLine>& lines) const
         points.back() = point;
       }
     }
+    DropInexactEnds(points, JoinShare * this->Size);
     line.Points = std::move(points);
     if (line.Points.size() < 2 || length <= ShortShare * this->Size)
     {

@@ -67,7 +67,10 @@ inline bool ExactMiddle(const SurfaceView& surface, const Viewer& viewer, const 
   const Vec2& b, Vec3& point, bool& frontOnLeft)
 {
   const Vec2 middle = 0.5 * (a + b);
-  const Vec2 aside = 0.25 * Vec2(a[1] - b[1], b[0] - a[0]);
+  const Vec2 size(surface.Domain(0).Length(), surface.Domain(1).Length());
+  const Vec2 chord = (b - a).cwiseQuotient(size);
+  const double reach = std::min(0.25, 0.01 / chord.norm());
+  const Vec2 aside = reach * Vec2(-chord[1], chord[0]).cwiseProduct(size);
   const auto at = [&](double t) {
     const Vec2 p = middle + t * aside;
     return Vec2(surface.Domain(0).Clamp(p[0]), surface.Domain(1).Clamp(p[1]));
@@ -76,7 +79,7 @@ inline bool ExactMiddle(const SurfaceView& surface, const Viewer& viewer, const 
   const double fLow = Cosine(surface, viewer, at(low));
   const double fHigh = Cosine(surface, viewer, at(high));
   frontOnLeft = fHigh > fLow;
-  if (fLow * fHigh >= 0.0)
+  if (fLow * fHigh >= 0.0 || std::min(std::abs(fLow), std::abs(fHigh)) < 1e-9)
   {
     return false;
   }
@@ -130,8 +133,27 @@ inline Measure MeasureLines(const Model& model, const Silhouettes& result, const
   return out;
 }
 
+/// Distance of a point from the silhouettes of a face.
+inline double DistanceToLines(const Silhouettes& result, std::int64_t face, const Vec3& point)
+{
+  double nearest = 1e300;
+  for (const SilhouetteLine& line : result.Lines)
+  {
+    for (std::size_t k = 0; line.Kind == LineKind::Silhouette && line.Face == face &&
+         k + (line.Closed ? 0 : 1) < line.Points.size();
+         ++k)
+    {
+      nearest = std::min(nearest,
+        nurbs::DistanceToSegment(
+          point, line.Points[k].Point, line.Points[(k + 1) % line.Points.size()].Point));
+    }
+  }
+  return nearest;
+}
+
 /// The grid edges of n x n over a face's domain where normal . view changes its sign (beyond 1e-9),
-/// and how many have no silhouette of the face within a cell.
+/// and how many have no silhouette of the face within a cell (of the domain; in space: within
+/// `precision` more than their length).
 struct GridCheck
 {
   int Changes = 0;
@@ -141,7 +163,7 @@ struct GridCheck
 
 template <typename Inside>
 GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& result,
-  const Viewer& viewer, int n, const Inside& inside)
+  const Viewer& viewer, int n, double precision, const Inside& inside)
 {
   const SurfaceView& surface = model.Faces[face].Geometry;
   const nurbs::Interval u = surface.Domain(0);
@@ -214,7 +236,15 @@ GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& re
       else if (sign[k] * sign[k + step] < 0)
       {
         ++out.Changes;
-        out.Missed += !near[k] && !near[k + step];
+        if (!near[k] && !near[k + step])
+        {
+          const Vec2 a = at(k % n, k / n);
+          const Vec2 b = at((k + step) % n, (k + step) / n);
+          const Vec3 pa = nurbs::Evaluate(surface, a[0], a[1]);
+          const Vec3 pb = nurbs::Evaluate(surface, b[0], b[1]);
+          out.Missed +=
+            DistanceToLines(result, face, 0.5 * (pa + pb)) > precision + (pa - pb).norm();
+        }
       }
     }
   }
@@ -226,9 +256,9 @@ GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& re
 }
 
 inline GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& result,
-  const Viewer& viewer, int n = 400)
+  const Viewer& viewer, double precision, int n = 400)
 {
-  return CheckGrid(model, face, result, viewer, n, [](const Vec2&) { return true; });
+  return CheckGrid(model, face, result, viewer, n, precision, [](const Vec2&) { return true; });
 }
 
 /// A Bezier patch with control points z(i, j) over the unit square.
