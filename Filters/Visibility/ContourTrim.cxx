@@ -14,6 +14,8 @@ namespace
 constexpr double AlongShare = 1e-7;
 // Each makes a chord four times as near to the contour.
 constexpr int MaxHalvings = 16;
+// Chords are not as far from the contour as that, of the domain.
+constexpr double LargestBulge = 0.1;
 
 ContourPoint Between(const ContourPoint& a, const ContourPoint& b, double t)
 {
@@ -171,8 +173,8 @@ bool ContourTrimmer::FindMiddle(
     (middle.Point - 0.5 * (a.Point + b.Point)).norm() < 0.5 * chord;
 }
 
-// Where the chord from a to b meets trim curves. False if a crossing is not one of the contour itself.
-bool ContourTrimmer::FindCrossings(
+// Where the chord from a to b meets trim curves.
+ContourTrimmer::Meeting ContourTrimmer::FindCrossings(
   const Vec2& a, const Vec2& b, std::size_t segment, std::vector<Crossing>& out) const
 {
   Box2 box(a);
@@ -181,31 +183,35 @@ bool ContourTrimmer::FindCrossings(
   // Scaled to the domain, as u and v need not have the same unit.
   const Vec2 scale = this->Size.cwiseInverse();
   const Vec2 along = (b - a).cwiseProduct(scale);
-  const Vec2 across(-along[1], along[0]);
-  const double length = along.squaredNorm();
+  const double length = along.norm();
   const std::size_t first = out.size();
-  bool sharp = true;
+  Meeting meeting;
   if (!(length > 0.0))
   {
-    return true;
+    return meeting;
   }
+  const Vec2 across = Vec2(-along[1], along[0]) / length;
   this->Tree.Search([&](const Box3& bounds) { return bounds.intersects(flat); },
     [&](std::int32_t index, const Box3&) {
       const Piece& piece = this->Pieces[index];
       std::vector<double> distance;
+      double gap = 1e300;
       for (const Vec3& h : piece.Bezier.Points)
       {
         distance.push_back(across.dot((h.head<2>() - a * h[2]).cwiseProduct(scale)));
+        gap = std::min(gap, std::abs(distance.back()) / h[2]);
       }
+      meeting.Gap = std::min(meeting.Gap, gap);
       for (const double t : SignChanges(distance))
       {
-        const double share = along.dot((piece.Bezier.Evaluate(t) - a).cwiseProduct(scale)) / length;
+        const double share =
+          along.dot((piece.Bezier.Evaluate(t) - a).cwiseProduct(scale)) / (length * length);
         if (share >= 0.0 && share < 1.0)
         {
           Crossing crossing;
           crossing.Segment = segment;
           crossing.Share = share;
-          sharp = this->Sharpen(piece, t, crossing) && sharp;
+          meeting.Sharp = this->Sharpen(piece, t, crossing) && meeting.Sharp;
           out.push_back(crossing);
         }
       }
@@ -214,23 +220,37 @@ bool ContourTrimmer::FindCrossings(
     out.begin() + std::ptrdiff_t(first), out.end(), [](const Crossing& x, const Crossing& y) {
       return x.Share != y.Share ? x.Share < y.Share : x.Trim.Curve < y.Trim.Curve;
     });
-  return sharp;
+  return meeting;
 }
 
-// The crossings between points k and k + 1. Where chord and contour cross trim curves differently the
-// chord is halved, which appends points.
+// Distance of a point of the contour from its chord, in the domain as scaled above.
+double ContourTrimmer::Bulge(const Vec2& a, const Vec2& b, const Vec2& middle) const
+{
+  const Vec2 along = (b - a).cwiseQuotient(this->Size).normalized();
+  const Vec2 aside = (middle - a).cwiseQuotient(this->Size);
+  return std::abs(along[0] * aside[1] - along[1] * aside[0]);
+}
+
+// The crossings from a to b. The chord is halved, which appends points, where it crosses trim curves
+// but the contour does not, or crosses elsewhere; and where a trim curve is so near that it could be
+// the other way around.
 void ContourTrimmer::AddSegment(const ContourPoint& a, const ContourPoint& b, int depth,
   std::vector<ContourPoint>& points, std::vector<Crossing>& crossings) const
 {
   const std::size_t first = crossings.size();
+  const Meeting meeting = this->FindCrossings(a.UV, b.UV, points.size() - 1, crossings);
+  const bool near = crossings.size() == first && meeting.Gap < LargestBulge;
   ContourPoint middle;
-  if (!this->FindCrossings(a.UV, b.UV, points.size() - 1, crossings) && depth > 0 &&
-    this->FindMiddle(a, b, middle))
+  if (depth > 0 && (!meeting.Sharp || near) && this->FindMiddle(a, b, middle))
   {
-    crossings.resize(first);
-    this->AddSegment(a, middle, depth - 1, points, crossings);
-    this->AddSegment(middle, b, depth - 1, points, crossings);
-    return;
+    const double bulge = this->Bulge(a.UV, b.UV, middle.UV);
+    if (!meeting.Sharp || (bulge > AlongShare && meeting.Gap < 2.0 * bulge))
+    {
+      crossings.resize(first);
+      this->AddSegment(a, middle, depth - 1, points, crossings);
+      this->AddSegment(middle, b, depth - 1, points, crossings);
+      return;
+    }
   }
   points.push_back(b);
 }

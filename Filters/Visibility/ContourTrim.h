@@ -64,8 +64,16 @@ private:
     Along
   };
 
-  bool FindCrossings(
+  /// What FindCrossings has to say about a chord.
+  struct Meeting
+  {
+    bool Sharp = true;  ///< All crossings are crossings of the contour itself.
+    double Gap = 1e300; ///< Least distance of control points of trim curves, of the domain.
+  };
+
+  Meeting FindCrossings(
     const Vec2& a, const Vec2& b, std::size_t segment, std::vector<Crossing>& out) const;
+  double Bulge(const Vec2& a, const Vec2& b, const Vec2& middle) const;
   bool Sharpen(const Piece& piece, double t, Crossing& crossing) const;
   bool FindMiddle(const ContourPoint& a, const ContourPoint& b, ContourPoint& middle) const;
   void AddSegment(const ContourPoint& a, const ContourPoint& b, int depth,

@@ -367,6 +367,7 @@ Silhouettes SilhouetteMaker::Run()
   this->View = this->Options.View;
   if (!this->View.Perspective)
   {
+    this->View.Place /= this->View.Place.cwiseAbs().maxCoeff();
     this->View.Place.normalize();
   }
   out.Faces.resize(this->Whole.Data.Faces.size());
@@ -404,7 +405,7 @@ double SampledSize(
   parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t f = begin; f < end; ++f)
     {
-      if (!faceErrors[f].empty())
+      if (!faceErrors[f].empty() || model.Faces[f].Geometry.Size() == 0)
       {
         continue;
       }
@@ -435,7 +436,7 @@ Silhouettes MakeSilhouettes(
   {
     throw Error(std::string("The ") + name + " is not finite");
   }
-  if (!options.View.Perspective && !(place.norm() > 0.0))
+  if (!options.View.Perspective && place.isZero(0.0))
   {
     throw Error(std::string("The ") + name + " has no length");
   }
@@ -448,7 +449,15 @@ Silhouettes MakeSilhouettes(
     throw Error(
       "The feature angle must be positive, but is " + std::to_string(options.FeatureAngle));
   }
-  return SilhouetteMaker(model, faceErrors, options).Run();
+  std::vector<std::string> errors = faceErrors;
+  for (std::size_t f = 0; f < errors.size(); ++f)
+  {
+    if (errors[f].empty() && model.Faces[f].Geometry.Size() == 0)
+    {
+      errors[f] = "it has no control points";
+    }
+  }
+  return SilhouetteMaker(model, errors, options).Run();
 }
 
 } // namespace nurbs

@@ -41,7 +41,7 @@ void Check(const nurbs::Model& model, const std::vector<std::string>& errors,
       if (errors[f].empty())
       {
         const nurbs::FaceTrim trim(model, f);
-        checks[f] = reference::CheckGrid(model, f, result, options.View, n, options.Precision,
+        checks[f] = reference::CheckGrid(model, f, result, options.View, options.Precision, n,
           [&](const nurbs::Vec2& uv) { return trim.Inside(uv[0], uv[1]); });
       }
     }

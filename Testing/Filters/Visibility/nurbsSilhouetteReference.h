@@ -163,7 +163,7 @@ struct GridCheck
 
 template <typename Inside>
 GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& result,
-  const Viewer& viewer, int n, double precision, const Inside& inside)
+  const Viewer& viewer, double precision, int n, const Inside& inside)
 {
   const SurfaceView& surface = model.Faces[face].Geometry;
   const nurbs::Interval u = surface.Domain(0);
@@ -258,7 +258,7 @@ GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& re
 inline GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouettes& result,
   const Viewer& viewer, double precision, int n = 400)
 {
-  return CheckGrid(model, face, result, viewer, n, precision, [](const Vec2&) { return true; });
+  return CheckGrid(model, face, result, viewer, precision, n, [](const Vec2&) { return true; });
 }
 
 /// A Bezier patch with control points z(i, j) over the unit square.
