@@ -197,27 +197,8 @@ BernsteinForm SpatialForm(const Net& net, const BezierPatch& patch)
   return g.Unscaled();
 }
 
-} // namespace
-
-Vec3 EvaluatePatch(const BezierPatch& patch, double s, double t)
-{
-  const BernsteinBasis u(patch.Degree[0], s);
-  const BernsteinBasis v(patch.Degree[1], t);
-  Vec4 h = Vec4::Zero();
-  const Vec4* p = patch.Points.data();
-  for (int j = 0; j <= patch.Degree[1]; ++j)
-  {
-    Vec4 row = Vec4::Zero();
-    for (int i = 0; i <= patch.Degree[0]; ++i)
-    {
-      row += u.Value[0][i] * *p++;
-    }
-    h += v.Value[0][j] * row;
-  }
-  return h.head<3>() / h[3];
-}
-
-ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, double s, double t)
+// Point and derivatives to order 2 at (s, t).
+SurfaceDerivatives DerivativesOf(const BezierPatch& patch, double s, double t)
 {
   const BernsteinBasis u(patch.Degree[0], s);
   const BernsteinBasis v(patch.Degree[1], t);
@@ -248,7 +229,32 @@ ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, dou
       }
     }
   }
-  const SurfaceDerivatives d = ProjectDerivatives(h, 2);
+  return ProjectDerivatives(h, 2);
+}
+
+} // namespace
+
+Vec3 EvaluatePatch(const BezierPatch& patch, double s, double t)
+{
+  const BernsteinBasis u(patch.Degree[0], s);
+  const BernsteinBasis v(patch.Degree[1], t);
+  Vec4 h = Vec4::Zero();
+  const Vec4* p = patch.Points.data();
+  for (int j = 0; j <= patch.Degree[1]; ++j)
+  {
+    Vec4 row = Vec4::Zero();
+    for (int i = 0; i <= patch.Degree[0]; ++i)
+    {
+      row += u.Value[0][i] * *p++;
+    }
+    h += v.Value[0][j] * row;
+  }
+  return h.head<3>() / h[3];
+}
+
+ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, double s, double t)
+{
+  const SurfaceDerivatives d = DerivativesOf(patch, s, t);
   ContourValue out;
   out.Point = d.S;
   const Vec3 normal = d.Su.cross(d.Sv);
@@ -264,6 +270,14 @@ ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, dou
       length;
   }
   return out;
+}
+
+Vec3 PatchNormal(const BezierPatch& patch, double s, double t)
+{
+  const SurfaceDerivatives d = DerivativesOf(patch, s, t);
+  const Vec3 normal = d.Su.cross(d.Sv);
+  const double length = normal.norm();
+  return length > 0.0 ? Vec3(normal / length) : normal;
 }
 
 ContourForm MakeContourForm(const BezierPatch& patch, const Viewer& viewer)

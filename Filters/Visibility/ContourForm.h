@@ -46,6 +46,8 @@ struct ContourValue
 
 /// Evaluates at (s, t) in [0, 1] x [0, 1], the patch's own parameters.
 ContourValue EvaluateContour(const BezierPatch& patch, const Viewer& viewer, double s, double t);
+/// Unit normal S_u x S_v at (s, t), 0 where there is none.
+Vec3 PatchNormal(const BezierPatch& patch, double s, double t);
 /// The point alone.
 Vec3 EvaluatePatch(const BezierPatch& patch, double s, double t);
 

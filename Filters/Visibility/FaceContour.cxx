@@ -100,6 +100,18 @@ double LargestOf(const std::vector<double>& c)
   return largest;
 }
 
+// True if g has one sign along a side, beyond its rounding.
+bool IsOneSided(const PatchContour& patch, int dir, int end)
+{
+  if (patch.EdgeOn || patch.IsPole[dir][end] || patch.IsZero[dir][end])
+  {
+    return false;
+  }
+  const std::vector<double> c = patch.G.OnLine(dir, end);
+  const auto ends = std::minmax_element(c.begin(), c.end());
+  return *ends.first > patch.Rounding || *ends.second < -patch.Rounding;
+}
+
 // True if g vanishes along a side that is no pole.
 bool SurfaceTracer::IsZeroSide(const PatchContour& patch, int dir, int end) const
 {
@@ -158,15 +170,7 @@ void SurfaceTracer::Factor(PatchContour& patch)
 bool SurfaceTracer::IsSmooth(const BezierPatch& low, const BezierPatch& high, int dir) const
 {
   const auto normal = [&](const BezierPatch& patch, double at, double t) {
-    const double s[2] = { dir == 0 ? at : t, dir == 0 ? t : at };
-    Vec3 n = Vec3::Zero();
-    Viewer viewer;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      viewer.Place = Vec3::Unit(axis);
-      n[axis] = EvaluateContour(patch, viewer, s[0], s[1]).Cosine;
-    }
-    return n;
+    return PatchNormal(patch, dir == 0 ? at : t, dir == 0 ? t : at);
   };
   for (int k = 0; k < LineSamples; ++k)
   {
@@ -212,6 +216,11 @@ void SurfaceTracer::JoinSides()
       if (!this->Neighbour(k, dir, 0))
       {
         this->TraceSides(dir, nullptr, &patch);
+      }
+      if (next && IsOneSided(patch, dir, 1) && IsOneSided(*next, dir, 0) &&
+        patch.G.At(patch.G.Degree[0], patch.G.Degree[1]) * next->G.At(0, 0) > 0.0)
+      {
+        continue; // Both face the same way along all of the line.
       }
       const bool clean =
         next && !patch.EdgeOn && !next->EdgeOn && !patch.IsZero[dir][1] && !next->IsZero[dir][0];

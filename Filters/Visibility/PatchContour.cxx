@@ -199,6 +199,7 @@ private:
   void Divide(const Cell& cell);
   void FinishMonotone(const Cell& cell, const Slope (&slopes)[2]);
   void FinishSingular(const Cell& cell);
+  bool IsTouching(const ContourArc& arc) const;
   void AddArc(const Cell& cell, ContourArc arc);
   void NoteSingular(const Cell& cell);
   std::vector<SideNode> NodesOf(const Cell& cell);
@@ -238,13 +239,10 @@ void Tracer::Run()
     {
       continue;
     }
-    if (++cells > this->Limits.MaximumCells)
+    const bool capped = ++cells > this->Limits.MaximumCells;
+    if (capped || this->IsSmall(cell))
     {
-      ++this->Source.UnresolvedCells;
-      this->NoteSingular(cell);
-    }
-    else if (this->IsSmall(cell))
-    {
+      ++(capped ? this->Source.UnresolvedCells : this->Source.SingularCells);
       this->FinishSingular(cell);
     }
     else
@@ -283,6 +281,10 @@ bool Tracer::IsSmall(const Cell& cell) const
   if (cell.Depth < 6)
   {
     return false;
+  }
+  if (cell.G.Magnitude() <= ContourZero * this->Source.Scale)
+  {
+    return true; // Edge-on.
   }
   const auto corner = [&](int i, int j) {
     return EvaluatePatch(*this->Source.Patch, cell.Range[0][i], cell.Range[1][j]);
@@ -463,17 +465,52 @@ void Tracer::FinishMonotone(const Cell& cell, const Slope (&slopes)[2])
   }
 }
 
+// True if normal . view has the same sign on both sides of an arc, as far as it can be told from 0: a
+// surface that is seen edge-on along a curve, but does not turn away there.
+bool Tracer::IsTouching(const ContourArc& arc) const
+{
+  const BezierPatch& patch = *this->Source.Patch;
+  const Vec2 uv = arc.Inner.empty()
+    ? Vec2(0.5 * (this->Nodes[arc.Start].UV + this->Nodes[arc.End].UV))
+    : arc.Inner[arc.Inner.size() / 2].UV;
+  const Vec2 st((uv[0] - patch.U.Min) / patch.U.Length(), (uv[1] - patch.V.Min) / patch.V.Length());
+  const auto evaluate = [&](const Vec2& p) {
+    return EvaluateContour(
+      patch, this->View, std::min(1.0, std::max(0.0, p[0])), std::min(1.0, std::max(0.0, p[1])));
+  };
+  constexpr double Steep = 1e-5;
+  if (evaluate(st).Gradient.norm() > Steep)
+  {
+    return false;
+  }
+  const Vec2 way = (this->Nodes[arc.End].UV - this->Nodes[arc.Start].UV)
+                     .cwiseQuotient(Vec2(patch.U.Length(), patch.V.Length()));
+  const Vec2 aside = Vec2(-way[1], way[0]).normalized();
+  for (double h = 1e-6; h < 0.1; h *= 4.0)
+  {
+    const double low = evaluate(st - h * aside).Cosine;
+    const double high = evaluate(st + h * aside).Cosine;
+    if (std::min(std::abs(low), std::abs(high)) > ContourCosine)
+    {
+      return low * high > 0.0;
+    }
+  }
+  return true;
+}
+
 // Adds an arc if some point of it belongs to the contour.
 void Tracer::AddArc(const Cell& cell, ContourArc arc)
 {
   const auto isExact = [](const ContourPoint& p) { return std::abs(p.Cosine) <= ContourCosine; };
-  if (isExact(this->Nodes[arc.Start]) || isExact(this->Nodes[arc.End]) ||
-    std::any_of(arc.Inner.begin(), arc.Inner.end(), isExact))
+  const bool exact = isExact(this->Nodes[arc.Start]) || isExact(this->Nodes[arc.End]) ||
+    std::any_of(arc.Inner.begin(), arc.Inner.end(), isExact);
+  if (exact && !this->IsTouching(arc))
   {
     this->Arcs.push_back(std::move(arc));
     return;
   }
-  if ((this->Nodes[arc.Start].Point - this->Nodes[arc.End].Point).norm() > this->Limits.Smallest)
+  if (!exact &&
+    (this->Nodes[arc.Start].Point - this->Nodes[arc.End].Point).norm() > this->Limits.Smallest)
   {
     ++this->Source.SingularCells;
     this->NoteSingular(cell);
@@ -491,12 +528,10 @@ void Tracer::NoteSingular(const Cell& cell)
   }
 }
 
-// Joins the nodes on the sides of a smallest cell: where g becomes negative on the way around, a
+// Joins the nodes on the sides of a cell that is not divided further: where g becomes negative on the way around, a
 // branch enters; it leaves where g becomes positive again.
 void Tracer::FinishSingular(const Cell& cell)
 {
-  this->Source.HasFront = this->Source.HasBack = true;
-  ++this->Source.SingularCells;
   this->NoteSingular(cell);
   const std::vector<SideNode> ends = this->NodesOf(cell);
   const std::size_t first = cell.G.Coefficients[0] < 0.0 ? 1 : 0;

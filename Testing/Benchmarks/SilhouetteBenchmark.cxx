@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Silhouettes of CAD files: SilhouetteBenchmark [--precision P] [--threads N] [--grid N] FILE...
+// Silhouettes of CAD files: SilhouetteBenchmark [--precision P] [--threads N] [--grid N]
+// [--patches N] FILE...
 // One line a file and direction: seconds of nurbs::MakeSilhouettes (the reading of the file is not
 // counted), lines, connected silhouettes, points. With --grid, silhouettes are compared with the
 // signs of nurbs::Normal . view on N x N samples a face, within its trims: how many neighbours of
@@ -10,11 +11,13 @@
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSShapeSource.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkSMPTools.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -60,13 +63,27 @@ void Check(const nurbs::Model& model, const std::vector<std::string>& errors,
     measure.Cosine, measure.Chord / options.Precision, measure.WrongSide);
 }
 
-void Run(const std::string& file, const Options& given)
+vtkSmartPointer<vtkDataObject> Read(const std::string& file)
 {
   vtkNew<vtkNURBSCADReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
+  return reader->GetOutputDataObject(0);
+}
+
+vtkSmartPointer<vtkDataObject> MakeCar(int patches)
+{
+  vtkNew<vtkNURBSShapeSource> source;
+  source->SetShapeToCarBody();
+  source->SetNumberOfPatches(patches);
+  source->Update();
+  return source->GetOutputDataObject(0);
+}
+
+void Run(const std::string& file, vtkDataObject* model, const Options& given)
+{
   vtkNURBSModelPool pool;
-  const std::string problem = pool.Collect(reader->GetOutputDataObject(0));
+  const std::string problem = pool.Collect(model);
   if (!problem.empty() || pool.Model.Faces.empty())
   {
     std::printf(
@@ -114,21 +131,27 @@ int main(int argc, char** argv)
 {
   Options options;
   int threads = 0;
+  int patches = 0;
   std::vector<std::string> files;
   CLI::App app("Silhouettes of CAD files in three directions");
   app.add_option("--precision", options.Precision, "of the diagonal");
   app.add_option("--threads", threads, "0: as many as there are");
   app.add_option("--grid", options.Grid, "samples a side for the comparison; 0: none");
-  app.add_option("files", files)->required();
+  app.add_option("--patches", patches, "of the car body; 0: none");
+  app.add_option("files", files);
   CLI11_PARSE(app, argc, argv);
   if (threads > 0)
   {
     vtkSMPTools::Initialize(threads);
   }
   const vtkNURBSParallelScope parallel;
+  if (patches > 0)
+  {
+    Run("car", MakeCar(patches), options);
+  }
   for (const std::string& file : files)
   {
-    Run(file, options);
+    Run(file, Read(file), options);
   }
   return 0;
 }

@@ -348,6 +348,34 @@ TEST(Silhouette, RandomPatchesMissNothing)
   EXPECT_GT(changes, 5000);
 }
 
+// Normal . view vanishes along a curve but keeps its sign: nothing turns away. With a cube's power it
+// does not.
+TEST(Silhouette, TouchingIsNoSilhouette)
+{
+  for (const int power : { 3, 4 })
+  {
+    // x^power over [-1, 1], exactly: the Bezier points of x = 2 t - 1 are the blossom's values.
+    const nurbs::Surface s = BezierSurface(power, 1, [power](double u, double v) {
+      const int minus = power - int(std::lround(u * power));
+      return Vec3(2.0 * u - 1.0, v, minus % 2 ? -1.0 : 1.0);
+    });
+    const Model model = OneFace(s);
+    for (const double side : { 1.0, -1.0 })
+    {
+      const Silhouettes result = Make(model, Direction(side, 0, 0), 1e-4);
+      EXPECT_EQ(CountOf(result, LineKind::Silhouette), power == 3 ? 0 : 1);
+    }
+    // With a shear the curve is no line of constant parameter.
+    nurbs::Surface sheared = nurbs::ElevateDegree(s.View(), 1, 2);
+    for (Vec3& point : sheared.Points)
+    {
+      point[0] += 0.3 * point[1] * point[1];
+    }
+    const Silhouettes result = Make(OneFace(sheared), Direction(1, 0, 0), 1e-4);
+    EXPECT_EQ(result.Chains[0], power == 3 ? 0 : 1);
+  }
+}
+
 // Two patches that meet in a ridge: seen from the side, it is where the surface turns away.
 TEST(Silhouette, CreasesOfDegreeOne)
 {
