@@ -400,6 +400,7 @@ void ContourTrimmer::Cut(const SurfaceContour& contour, std::vector<TrimmedConto
     const Place place = this->Locate(part);
     if (!current.empty() && place == currentPlace)
     {
+      current.pop_back(); // The crossing is none.
       current.insert(current.end(), part.begin() + 1, part.end());
     }
     else

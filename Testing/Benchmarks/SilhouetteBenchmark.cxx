@@ -59,8 +59,8 @@ void Check(const nurbs::Model& model, const std::vector<std::string>& errors,
       std::printf(" (face %zu: %d)", f, checks[f].Missed);
     }
   }
-  std::printf("  missed %d of %d, |n.v| %.1e, chord %.2f, wrong side %d", missed, changes,
-    measure.Cosine, measure.Chord / options.Precision, measure.WrongSide);
+  std::printf("  missed %d of %d, over 1e-9 %d (%.1e), chord %.2f, wrong side %d", missed, changes,
+    measure.Over, measure.Cosine, measure.Chord / options.Precision, measure.WrongSide);
 }
 
 vtkSmartPointer<vtkDataObject> Read(const std::string& file)

@@ -39,6 +39,21 @@ inline double Cosine(const SurfaceView& surface, const Viewer& viewer, const Vec
   return nurbs::Normal(surface, uv[0], uv[1]).dot(viewer.Toward(point).normalized());
 }
 
+/// The same; at a knot, where the normal may jump, that of the side where it is nearest to 0.
+inline double SidedCosine(const SurfaceView& surface, const Viewer& viewer, const Vec2& uv)
+{
+  double least = 2.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    Vec2 p = uv;
+    p[0] = k & 1 ? std::nextafter(p[0], -1e300) : p[0];
+    p[1] = k & 2 ? std::nextafter(p[1], -1e300) : p[1];
+    const double cosine = std::abs(Cosine(surface, viewer, p));
+    least = std::min(least, cosine);
+  }
+  return least;
+}
+
 inline double Length(const SilhouetteLine& line)
 {
   double length = 0.0;
@@ -56,6 +71,7 @@ struct Measure
   std::size_t Points = 0;
   double Length = 0.0;
   double Cosine = 0.0; ///< Largest |normal . view| that is no crease's.
+  int Over = 0;        ///< Points where it is over 1e-9.
   double Offset = 0.0; ///< Largest distance from the surface at UV.
   double Chord = 0.0;  ///< Largest distance of the exact contour, between points, from the chord.
   int WrongSide = 0;   ///< Chords whose front is not on the left.
@@ -113,7 +129,9 @@ inline Measure MeasureLines(const Model& model, const Silhouettes& result, const
       {
         continue;
       }
-      out.Cosine = std::max(out.Cosine, std::abs(Cosine(surface, viewer, p.UV)));
+      const double cosine = SidedCosine(surface, viewer, p.UV);
+      out.Cosine = std::max(out.Cosine, cosine);
+      out.Over += cosine > 1e-9;
       if (k + 1 == line.Points.size() && !line.Closed)
       {
         continue;
