@@ -72,4 +72,34 @@ void EvaluateBasisDerivatives(
   }
 }
 
+void BlossomMatrix(KnotView knots, int degree, int span, double a, double b, double* m)
+{
+  const int p = degree;
+  const int k = span;
+  double c[(MaxDegree + 1) * (MaxDegree + 1)];
+  for (int row = 0; row <= p; ++row)
+  {
+    std::fill_n(c, (p + 1) * (p + 1), 0.0);
+    for (int i = 0; i <= p; ++i)
+    {
+      c[i * (p + 1) + i] = 1.0;
+    }
+    for (int r = 1; r <= p; ++r)
+    {
+      const double t = r <= p - row ? a : b;
+      for (int i = p; i >= r; --i)
+      {
+        const double lo = knots[k - p + i];
+        const double hi = knots[k + 1 + i - r];
+        const double s = (t - lo) / (hi - lo);
+        for (int x = i - r; x <= i; ++x)
+        {
+          c[i * (p + 1) + x] = (1.0 - s) * c[(i - 1) * (p + 1) + x] + s * c[i * (p + 1) + x];
+        }
+      }
+    }
+    std::copy_n(c + p * (p + 1), p + 1, m + row * (p + 1));
+  }
+}
+
 } // namespace nurbs

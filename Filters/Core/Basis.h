@@ -22,4 +22,9 @@ void EvaluateBasis(KnotView knots, int degree, int span, double t, double* N);
 void EvaluateBasisDerivatives(
   KnotView knots, int degree, int span, double t, int order, double* ders);
 
+/// The matrix that takes the degree + 1 control points of `span` to the Bezier points over [a, b]:
+/// row i has the coefficients of the blossom at a (degree - i times) and b (i times), so that
+/// m[i * (degree + 1) + x] is also the Bezier coefficient i of basis function x.
+void BlossomMatrix(KnotView knots, int degree, int span, double a, double b, double* m);
+
 } // namespace nurbs

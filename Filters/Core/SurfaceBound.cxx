@@ -43,36 +43,6 @@ double SecondDerivatives::Bow(double a, double b) const
 
 namespace
 {
-// Rows of blossom coefficients: point i of the Bezier form of [a, b] in span `k` is the blossom at
-// a (p - i times) and b (i times), a combination of the p + 1 control points of the span.
-void BlossomMatrix(KnotView knots, int p, int k, double a, double b, double* m)
-{
-  double c[(MaxDegree + 1) * (MaxDegree + 1)];
-  for (int row = 0; row <= p; ++row)
-  {
-    std::fill_n(c, (p + 1) * (p + 1), 0.0);
-    for (int i = 0; i <= p; ++i)
-    {
-      c[i * (p + 1) + i] = 1.0;
-    }
-    for (int r = 1; r <= p; ++r)
-    {
-      const double t = r <= p - row ? a : b;
-      for (int i = p; i >= r; --i)
-      {
-        const double lo = knots[k - p + i];
-        const double hi = knots[k + 1 + i - r];
-        const double s = (t - lo) / (hi - lo);
-        for (int x = i - r; x <= i; ++x)
-        {
-          c[i * (p + 1) + x] = (1.0 - s) * c[(i - 1) * (p + 1) + x] + s * c[i * (p + 1) + x];
-        }
-      }
-    }
-    std::copy_n(c + p * (p + 1), p + 1, m + row * (p + 1));
-  }
-}
-
 constexpr double Unbounded = 1e150; // What does not fit a float; squares of it fit a double.
 
 // std::nextafter towards minus infinity, which is slow.

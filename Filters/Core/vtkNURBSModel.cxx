@@ -3,6 +3,7 @@
 
 #include "ModelBuilder.h"
 #include "vtkNURBSModelNames.h"
+#include "vtkNURBSModelPool.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSParallel.h"
 
@@ -13,7 +14,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
-#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -73,16 +73,6 @@ void AppendProblems(vtkDataObject* data, const std::string& prefix, std::string&
   }
 }
 
-std::string BlockName(unsigned int index, vtkInformation* about)
-{
-  std::string name = "block " + std::to_string(index);
-  if (about && about->Has(vtkCompositeDataSet::NAME()))
-  {
-    name += std::string(" (") + about->Get(vtkCompositeDataSet::NAME()) + ")";
-  }
-  return name + ": ";
-}
-
 void AppendProblems(vtkPartitionedDataSetCollection* assembly, std::string& text)
 {
   for (unsigned int i = 0; i < assembly->GetNumberOfPartitionedDataSets(); ++i)
@@ -92,7 +82,7 @@ void AppendProblems(vtkPartitionedDataSetCollection* assembly, std::string& text
     {
       if (vtkDataObject* leaf = assembly->GetPartitionAsDataObject(i, part))
       {
-        AppendProblems(leaf, BlockName(i, about), text);
+        AppendProblems(leaf, vtkNURBSModelPool::BlockName(i, about), text);
       }
     }
   }
@@ -105,8 +95,8 @@ void AppendProblems(vtkCompositeDataSet* composite, std::string& text)
   for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
   {
     vtkInformation* about = block->HasCurrentMetaData() ? block->GetCurrentMetaData() : nullptr;
-    AppendProblems(
-      block->GetCurrentDataObject(), BlockName(block->GetCurrentFlatIndex(), about), text);
+    AppendProblems(block->GetCurrentDataObject(),
+      vtkNURBSModelPool::BlockName(block->GetCurrentFlatIndex(), about), text);
   }
 }
 
@@ -369,6 +359,32 @@ constexpr const char* StructureNames[] = { names::Knots, names::LoopCurveStart,
   names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
   names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints };
 } // namespace
+
+std::vector<vtkAbstractArray*> vtkNURBSModel::GetStructureArrays(vtkUnstructuredGrid* grid)
+{
+  std::vector<vtkAbstractArray*> arrays;
+  const auto append = [&arrays](vtkAbstractArray* array) {
+    if (array)
+    {
+      arrays.push_back(array);
+    }
+  };
+  for (const char* name : { names::Degree, names::NetSize, names::KnotStart, names::LoopStart,
+         names::LoopCount, names::Orientation })
+  {
+    append(grid->GetCellData()->GetAbstractArray(name));
+  }
+  for (const char* name : StructureNames)
+  {
+    append(grid->GetFieldData()->GetAbstractArray(name));
+  }
+  return arrays;
+}
+
+vtkDataArray* vtkNURBSModel::GetWeights(vtkUnstructuredGrid* grid)
+{
+  return grid->GetPointData()->GetArray(names::RationalWeights);
+}
 
 void vtkNURBSModel::RemoveStructure(vtkFieldData* field)
 {

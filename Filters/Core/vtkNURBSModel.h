@@ -49,6 +49,8 @@
 #include <string> // For std::string
 #include <vector> // For std::vector
 
+class vtkAbstractArray;
+class vtkDataArray;
 class vtkDataObject;
 class vtkDataSetAttributes;
 class vtkFieldData;
@@ -115,6 +117,17 @@ public:
    * is left of a model's structure describes surfaces.
    */
   static bool IsTrimArray(const char* name);
+
+  /**
+   * The arrays that say what the surfaces, loops and edges of a grid are, in an order that depends on
+   * nothing else: all of its structure but points, weights and connectivity.
+   */
+  static std::vector<vtkAbstractArray*> GetStructureArrays(vtkUnstructuredGrid* grid);
+
+  /**
+   * The weights of the control points; null if there are none, i.e. if all are 1.
+   */
+  static vtkDataArray* GetWeights(vtkUnstructuredGrid* grid);
 
   /**
    * Copies the faces' attributes (all cell arrays but those of IsStructureArray) to `target`: tuple

@@ -6,6 +6,7 @@
 #include "vtkDataAssembly.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
@@ -14,6 +15,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
+
+#include <map>
 
 namespace
 {
@@ -51,25 +54,43 @@ void AppendModel(const nurbs::Model& part, nurbs::Model& all)
   all.Vertices.insert(all.Vertices.end(), part.Vertices.begin(), part.Vertices.end());
 }
 
-// Calls visit(leaf, flat index) until it returns false.
+// Calls visit(leaf, flat index, what is told of it) until it returns false.
 template <typename F>
 void VisitLeaves(vtkDataObject* input, F visit)
 {
   auto* composite = vtkCompositeDataSet::SafeDownCast(input);
   if (!composite)
   {
-    visit(input, 0u);
+    visit(input, 0u, static_cast<vtkInformation*>(nullptr));
     return;
   }
   vtkSmartPointer<vtkCompositeDataIterator> at;
   at.TakeReference(composite->NewIterator());
   for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
   {
-    if (!visit(at->GetCurrentDataObject(), at->GetCurrentFlatIndex()))
+    if (!visit(at->GetCurrentDataObject(), at->GetCurrentFlatIndex(),
+          at->HasCurrentMetaData() ? at->GetCurrentMetaData() : nullptr))
     {
       return;
     }
   }
+}
+
+// In an assembly, the name is that of the partitioned data set, and so is the index.
+std::map<vtkDataObject*, std::string> AssemblyNames(vtkDataObject* input)
+{
+  std::map<vtkDataObject*, std::string> names;
+  auto* assembly = vtkPartitionedDataSetCollection::SafeDownCast(input);
+  for (unsigned int i = 0; assembly && i < assembly->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    const std::string name = vtkNURBSModelPool::BlockName(
+      i, assembly->HasMetaData(i) ? assembly->GetMetaData(i) : nullptr);
+    for (unsigned int part = 0; part < assembly->GetNumberOfPartitions(i); ++part)
+    {
+      names[assembly->GetPartitionAsDataObject(i, part)] = name;
+    }
+  }
+  return names;
 }
 
 bool IsEmptyGrid(vtkDataObject* leaf)
@@ -82,25 +103,14 @@ bool IsEmptyGrid(vtkDataObject* leaf)
 
 std::string vtkNURBSModelPool::Collect(vtkDataObject* input)
 {
-  std::string problem;
-  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int index) {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
-    if (IsEmptyGrid(leaf))
-    {
-      return true;
-    }
-    if (!grid || !vtkNURBSModel::IsModel(grid))
-    {
-      problem = "The input" +
-        (input == leaf ? std::string() : "'s data set " + std::to_string(index)) +
-        " is not a NURBS model: " +
-        (grid ? "it lacks the arrays that describe surfaces" : "it is no vtkUnstructuredGrid");
-      return false;
-    }
+  std::vector<Block> blocks;
+  const std::string problem = Find(input, blocks);
+  for (const Block& block : blocks)
+  {
     Leaf entry;
-    entry.Grid = grid;
-    entry.Time = grid->GetMTime();
-    entry.View = vtkNURBSModel::View(grid);
+    entry.Grid = block.Grid;
+    entry.Time = block.Grid->GetMTime();
+    entry.View = vtkNURBSModel::View(block.Grid);
     entry.FirstFace = this->Model.Faces.size();
     entry.FirstEdge = std::int64_t(this->Model.Edges.size());
     const nurbs::Model& model = entry.View->GetModel();
@@ -111,6 +121,43 @@ std::string vtkNURBSModelPool::Collect(vtkDataObject* input)
       this->FaceErrors.push_back(entry.View->GetFaceError(vtkIdType(f)));
     }
     this->Leaves.push_back(std::move(entry));
+  }
+  return problem;
+}
+
+std::string vtkNURBSModelPool::BlockName(unsigned int index, vtkInformation* about)
+{
+  std::string name = "block " + std::to_string(index);
+  if (about && about->Has(vtkCompositeDataSet::NAME()))
+  {
+    name += std::string(" (") + about->Get(vtkCompositeDataSet::NAME()) + ")";
+  }
+  return name + ": ";
+}
+
+std::string vtkNURBSModelPool::Find(vtkDataObject* input, std::vector<Block>& blocks)
+{
+  std::string problem;
+  const std::map<vtkDataObject*, std::string> names = AssemblyNames(input);
+  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int index, vtkInformation* about) {
+    if (IsEmptyGrid(leaf))
+    {
+      return true;
+    }
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
+    if (!grid || !vtkNURBSModel::IsModel(grid))
+    {
+      problem = "The input" +
+        (input == leaf ? std::string() : "'s data set " + std::to_string(index)) +
+        " is not a NURBS model: " +
+        (grid ? "it lacks the arrays that describe surfaces" : "it is no vtkUnstructuredGrid");
+      return false;
+    }
+    const auto named = names.find(leaf);
+    blocks.push_back({ grid,
+      named != names.end() ? named->second
+        : input == leaf    ? ""
+                           : BlockName(index, about) });
     return true;
   });
   return problem;
@@ -120,7 +167,7 @@ bool vtkNURBSModelPool::IsUpToDate(vtkDataObject* input) const
 {
   std::size_t next = 0;
   bool same = true;
-  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int) {
+  VisitLeaves(input, [&](vtkDataObject* leaf, unsigned int, vtkInformation*) {
     if (!IsEmptyGrid(leaf))
     {
       same = next < this->Leaves.size() && this->Leaves[next].Grid == leaf &&
@@ -198,4 +245,25 @@ std::vector<vtkPolyData*> vtkNURBSModelPool::MakeLeaves(
     }
   }
   return out;
+}
+
+void vtkNURBSModelPool::SetLeaves(
+  vtkDataObject* input, vtkDataObject* output, const std::vector<vtkPolyData*>& leaves)
+{
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(output);
+  if (!from || !to)
+  {
+    return;
+  }
+  std::size_t next = 0;
+  vtkSmartPointer<vtkCompositeDataIterator> at;
+  at.TakeReference(from->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    if (!IsEmptyGrid(at->GetCurrentDataObject()) && next < leaves.size())
+    {
+      to->SetDataSet(at, leaves[next++]);
+    }
+  }
 }

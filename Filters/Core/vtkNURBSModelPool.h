@@ -16,6 +16,7 @@
 #include <memory> // For std::shared_ptr
 
 class vtkDataObject;
+class vtkInformation;
 class vtkInformationVector;
 class vtkNURBSModelView;
 class vtkPolyData;
@@ -45,11 +46,27 @@ public:
   /// True if the input still has the grids that were collected, and none was modified since.
   bool IsUpToDate(vtkDataObject* input) const;
 
+  /// A grid of an input.
+  struct Block
+  {
+    vtkUnstructuredGrid* Grid = nullptr;
+    std::string Name; ///< "block 2 (wheel): ", as vtkNURBSModel::Validate; "" in no composite.
+  };
+  /// Finds the models of an input, without grids that have no cell. Returns what is wrong with it, ""
+  /// if nothing is; does not look at what the arrays hold.
+  static std::string Find(vtkDataObject* input, std::vector<Block>& blocks);
+
+  /// "block 2 (wheel): ", of a block's index and what is told of it (may be null).
+  static std::string BlockName(unsigned int index, vtkInformation* about);
+
   /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject.
   /// False: there is no input.
   static bool MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports);
   /// Empties an output and gives it the input's structure and assembly.
   static void CopyTree(vtkDataObject* input, vtkDataObject* output);
+  /// Gives a composite output one data set for every model, in order.
+  static void SetLeaves(
+    vtkDataObject* input, vtkDataObject* output, const std::vector<vtkPolyData*>& leaves);
   /// The output's data of every leaf, in order; made new in a composite.
   std::vector<vtkPolyData*> MakeLeaves(vtkDataObject* input, vtkDataObject* output) const;
 };

@@ -8,65 +8,6 @@
 #include <cmath>
 #include <limits>
 
-namespace
-{
-
-constexpr int Samples = 5;
-
-nurbs::Box3 FaceBox(const nurbs::Model& model, const nurbs::Face& face)
-{
-  const nurbs::Box2 uv = nurbs::LoopsBox(model, face);
-  nurbs::Box3 box;
-  if (uv.isEmpty())
-  {
-    return box;
-  }
-  int count[2];
-  for (int dir = 0; dir < 2; ++dir)
-  {
-    const bool linear = face.Geometry.Degree[dir] == 1 && face.Geometry.Count[dir] == 2;
-    count[dir] = linear ? 2 : Samples;
-  }
-  for (int j = 0; j < count[1]; ++j)
-  {
-    const double v = uv.min()[1] + uv.sizes()[1] * j / (count[1] - 1);
-    for (int i = 0; i < count[0]; ++i)
-    {
-      const double u = uv.min()[0] + uv.sizes()[0] * i / (count[0] - 1);
-      box.extend(nurbs::Evaluate(face.Geometry, u, v));
-    }
-  }
-  return box;
-}
-
-} // namespace
-
-std::vector<nurbs::Box3> vtkNURBSFaceExtent::FaceBoxes(const nurbs::Model& model,
-  const std::vector<std::string>& faceErrors, const nurbs::ParallelFor& parallel)
-{
-  std::vector<nurbs::Box3> boxes(model.Faces.size());
-  parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f)
-    {
-      if (faceErrors[f].empty())
-      {
-        boxes[f] = FaceBox(model, model.Faces[f]);
-      }
-    }
-  });
-  return boxes;
-}
-
-double vtkNURBSFaceExtent::Diagonal(const std::vector<nurbs::Box3>& boxes)
-{
-  nurbs::Box3 all;
-  for (const nurbs::Box3& box : boxes)
-  {
-    all.extend(box);
-  }
-  return all.isEmpty() ? 0.0 : all.diagonal().norm();
-}
-
 std::vector<double> vtkNURBSFaceExtent::PixelTolerances(const std::vector<nurbs::Box3>& boxes,
   vtkCamera* camera, const int viewport[2], double pixels, double least)
 {

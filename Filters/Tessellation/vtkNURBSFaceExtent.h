@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkNURBSFaceExtent.h
- * @brief How large faces are, in space and in a view. Private to this module.
+ * @brief How large faces are in a view. Private to this module.
  */
 #ifndef vtkNURBSFaceExtent_h
 #define vtkNURBSFaceExtent_h
 
-#include "Model.h"
+#include "ModelExtent.h"
 
 class vtkCamera;
 
 namespace vtkNURBSFaceExtent
 {
-
-/// A box around points of each face: 5 x 5 samples (2 in a linear direction) of its surface over the
-/// box of its loops. Empty for faces with an error.
-std::vector<nurbs::Box3> FaceBoxes(const nurbs::Model& model,
-  const std::vector<std::string>& faceErrors, const nurbs::ParallelFor& parallel);
-
-/// The diagonal of the box around all boxes; 0 if there is none.
-double Diagonal(const std::vector<nurbs::Box3>& boxes);
 
 /// The length, in space, that looks `pixels` long in the view at the depth of each box's nearest
 /// corner, wherever in the view it is and however it is turned; of a box behind the near plane, at

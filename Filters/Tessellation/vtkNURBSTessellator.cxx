@@ -136,8 +136,8 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
     return true;
   }
   const std::vector<nurbs::Box3> boxes =
-    vtkNURBSFaceExtent::FaceBoxes(work.Pool.Model, work.Pool.FaceErrors, vtkNURBSParallelFor);
-  const double diagonal = vtkNURBSFaceExtent::Diagonal(boxes);
+    nurbs::FaceBoxes(work.Pool.Model, work.Pool.FaceErrors, vtkNURBSParallelFor);
+  const double diagonal = nurbs::Diagonal(boxes);
   options.Tolerance = (diagonal > 0.0 ? diagonal : 1.0) * this->Tolerance;
   if (this->ToleranceMode == RELATIVE)
   {

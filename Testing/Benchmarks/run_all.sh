@@ -4,13 +4,14 @@
 # to build/bench/*.md. BUILD names the build folder (default: build/release). A child process that
 # fails or takes too long is a line beside its script's table. Exits 1, and names the script, if one
 # fails or a child process crashes.
-#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, drawing, times and our meshes at 1e-3 only
+#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, drawing, deformation, times and
+#                            our meshes at 1e-3 only
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 export BUILD="${BUILD:-$here/../../build/release}"
-quick=no tolerances=1e-3,1e-4 drawing=()
+quick=no tolerances=1e-3,1e-4 fewer=()
 if [ "${1:-}" = --quick ]; then
-  quick=yes tolerances=1e-3 drawing=(--quick)
+  quick=yes tolerances=1e-3 fewer=(--quick)
   shift
 fi
 
@@ -28,7 +29,9 @@ step() {
 
 folders=("$@")
 step pictures.py
-step drawing.py "${drawing[@]}"
+step drawing.py "${fewer[@]}"
+step deformation.py "${fewer[@]}"
+step free_form.py
 step ../Peers/compare_with_occt.py --tolerances "$tolerances"
 if [ $quick = no ]; then
   step scale.py
