@@ -346,26 +346,75 @@ void ContourTrimmer::Add(const SurfaceContour& contour, std::vector<ContourPoint
   out.push_back(std::move(piece));
 }
 
+// The parts of one contour between its crossings; those at the same place that follow each other become
+// one.
+class ContourTrimmer::Parts
+{
+public:
+  Parts(
+    const ContourTrimmer& trimmer, const SurfaceContour& contour, std::vector<TrimmedContour>& out)
+    : Trimmer(trimmer)
+    , Source(contour)
+    , Out(out)
+  {}
+
+  // Adds a part that ends in `end`.
+  void Add(const std::vector<ContourPoint>& part, const TrimCrossing& end)
+  {
+    // What is left of a contour that ends on a trim curve is too short to be anywhere.
+    if (LengthOf(part) <= 1e-3 * this->Trimmer.Precision)
+    {
+      this->Last = end.Curve >= 0 ? end : this->Last;
+      return;
+    }
+    const Place place = this->Trimmer.Locate(part);
+    if (!this->Points.empty() && place == this->At)
+    {
+      this->Points.pop_back(); // The crossing is none.
+      this->Points.insert(this->Points.end(), part.begin() + 1, part.end());
+    }
+    else
+    {
+      this->Flush();
+      this->Points = part;
+      this->At = place;
+      this->Start = this->Last;
+    }
+    this->Last = end;
+  }
+
+  void Flush()
+  {
+    if (this->Points.size() > 1 && this->At != Place::Outside)
+    {
+      this->Trimmer.Add(
+        this->Source, std::move(this->Points), this->At, this->Start, this->Last, this->Out);
+    }
+    this->Points.clear();
+  }
+
+private:
+  const ContourTrimmer& Trimmer;
+  const SurfaceContour& Source;
+  std::vector<TrimmedContour>& Out;
+  std::vector<ContourPoint> Points; // Of the part so far.
+  Place At = Place::Outside;
+  TrimCrossing Start, Last;
+};
+
 void ContourTrimmer::Cut(const SurfaceContour& contour, std::vector<TrimmedContour>& out) const
 {
-  if (contour.Points.size() < 2)
+  const std::size_t count = contour.Points.size();
+  if (count < 2)
   {
     return;
   }
   std::vector<ContourPoint> points(1, contour.Points.front());
   std::vector<Crossing> crossings;
-  const std::size_t count = contour.Points.size();
-  for (std::size_t k = 1; k < count + (contour.Closed ? 1 : 0); ++k)
+  const int depth = contour.Kind == ContourArcKind::Inner ? MaxHalvings : 0;
+  for (std::size_t k = 1; !this->Trim.IsWhole() && k < count + (contour.Closed ? 1 : 0); ++k)
   {
-    if (this->Trim.IsWhole())
-    {
-      points.push_back(contour.Points[k % count]);
-    }
-    else
-    {
-      const int depth = contour.Kind == ContourArcKind::Inner ? MaxHalvings : 0;
-      this->AddSegment(points.back(), contour.Points[k % count], depth, points, crossings);
-    }
+    this->AddSegment(points.back(), contour.Points[k % count], depth, points, crossings);
   }
   if (crossings.empty())
   {
@@ -377,54 +426,22 @@ void ContourTrimmer::Cut(const SurfaceContour& contour, std::vector<TrimmedConto
     }
     return;
   }
-  // The parts between crossings; those of the same kind that follow each other are one.
-  std::vector<ContourPoint> part{ points.front() };
-  std::vector<ContourPoint> current;
-  Place currentPlace = Place::Outside;
-  TrimCrossing start, last;
   const std::size_t firstOut = out.size();
-  const auto flush = [&](const TrimCrossing& end) {
-    if (current.size() > 1 && currentPlace != Place::Outside)
-    {
-      this->Add(contour, std::move(current), currentPlace, start, end, out);
-    }
-    current.clear();
-  };
-  const auto close = [&](const TrimCrossing& end) {
-    // What is left of a contour that ends on a trim curve is too short to be anywhere.
-    if (LengthOf(part) <= 1e-3 * this->Precision)
-    {
-      last = end.Curve >= 0 ? end : last;
-      return;
-    }
-    const Place place = this->Locate(part);
-    if (!current.empty() && place == currentPlace)
-    {
-      current.pop_back(); // The crossing is none.
-      current.insert(current.end(), part.begin() + 1, part.end());
-    }
-    else
-    {
-      flush(last);
-      current = part;
-      currentPlace = place;
-      start = last;
-    }
-    last = end;
-  };
+  Parts parts(*this, contour, out);
+  std::vector<ContourPoint> part{ points.front() };
   std::size_t next = 0;
   for (std::size_t k = 0; k + 1 < points.size(); ++k)
   {
     for (; next < crossings.size() && crossings[next].Segment == k; ++next)
     {
       part.push_back(crossings[next].Point);
-      close(crossings[next].Trim);
+      parts.Add(part, crossings[next].Trim);
       part.assign(1, crossings[next].Point);
     }
     part.push_back(points[k + 1]);
   }
-  close({});
-  flush(last);
+  parts.Add(part, {});
+  parts.Flush();
   if (contour.Closed)
   {
     JoinEnds(firstOut, out);

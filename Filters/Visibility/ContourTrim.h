@@ -64,6 +64,8 @@ private:
     Along
   };
 
+  class Parts;
+
   /// What FindCrossings has to say about a chord.
   struct Meeting
   {

@@ -2,6 +2,7 @@
 #include "Silhouette.h"
 
 #include "LineChains.h"
+#include "ModelExtent.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +15,6 @@ namespace nurbs
 namespace
 {
 
-constexpr int SizeSamples = 9;
 // Singular cells are smaller than this share of the model, or the precision.
 constexpr double SmallestShare = 1e-6;
 // Ends of lines of faces that fit exactly meet within this share of the model.
@@ -30,7 +30,7 @@ public:
     const SilhouetteOptions& options)
     : FaceErrors(faceErrors)
     , Options(options)
-    , Size(SampledSize(model, faceErrors, options.Parallel))
+    , Size(Diagonal(FaceBoxes(model, faceErrors, options.Parallel)))
     , Whole(CompleteModel(model, faceErrors, JoinShare * this->Size))
     , Uses(UsesOfEdges(this->Whole.Data, faceErrors))
   {}
@@ -397,35 +397,6 @@ Silhouettes SilhouetteMaker::Run()
 }
 
 } // namespace
-
-double SampledSize(
-  const Model& model, const std::vector<std::string>& faceErrors, const ParallelFor& parallel)
-{
-  std::vector<Box3> boxes(model.Faces.size());
-  parallel(0, std::int64_t(boxes.size()), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f)
-    {
-      if (!faceErrors[f].empty() || model.Faces[f].Geometry.Size() == 0)
-      {
-        continue;
-      }
-      const Box2 box = LoopsBox(model, model.Faces[f]);
-      for (int k = 0; k < SizeSamples * SizeSamples; ++k)
-      {
-        const Vec2 share(
-          double(k % SizeSamples) / (SizeSamples - 1), double(k / SizeSamples) / (SizeSamples - 1));
-        const Vec2 uv = box.min() + share.cwiseProduct(box.sizes());
-        boxes[f].extend(Evaluate(model.Faces[f].Geometry, uv[0], uv[1]));
-      }
-    }
-  });
-  Box3 all;
-  for (const Box3& box : boxes)
-  {
-    all.extend(box);
-  }
-  return all.isEmpty() ? 0.0 : all.diagonal().norm();
-}
 
 Silhouettes MakeSilhouettes(
   const Model& model, const std::vector<std::string>& faceErrors, const SilhouetteOptions& options)

@@ -69,10 +69,6 @@ struct Silhouettes
   bool Aborted = false;
 };
 
-/// Diagonal of the box around 9 x 9 points of every face within its loops; 0 without a face.
-double SampledSize(const Model& model, const std::vector<std::string>& faceErrors,
-  const ParallelFor& parallel = SerialFor);
-
 /// Makes the lines. `faceErrors`: one a face, why it can't be used, or "". The result does not depend
 /// on `Parallel`. Throws Error if the precision or feature angle is not positive, the direction zero
 /// or a coordinate of the viewer not finite.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSSilhouette.h"
 
+#include "ModelExtent.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -108,7 +109,8 @@ void vtkNURBSSilhouette::Make(Work& work)
   std::copy(std::begin(kinds), std::end(kinds), options.Kinds);
   options.Parallel = vtkNURBSParallelFor;
   const vtkNURBSModelPool& pool = work.Pool;
-  const double size = nurbs::SampledSize(pool.Model, pool.FaceErrors, vtkNURBSParallelFor);
+  const double size =
+    nurbs::Diagonal(nurbs::FaceBoxes(pool.Model, pool.FaceErrors, vtkNURBSParallelFor));
   options.Precision =
     this->Precision * (this->PrecisionMode == RELATIVE && size > 0.0 ? size : 1.0);
   options.Parts.resize(pool.Model.Faces.size());

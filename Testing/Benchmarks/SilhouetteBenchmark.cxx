@@ -7,6 +7,7 @@
 // different signs have no silhouette within a cell, the largest |normal . view| of the points and
 // the largest distance between chords and contour, of the precision.
 #include "Measuring.h"
+#include "ModelExtent.h"
 #include "nurbsSilhouetteReference.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModelPool.h"
@@ -95,8 +96,8 @@ void Run(const std::string& file, vtkDataObject* model, const Options& given)
     nurbs::SilhouetteOptions options;
     options.View.Place = direction.normalized();
     options.Parallel = vtkNURBSParallelFor;
-    options.Precision =
-      given.Precision * nurbs::SampledSize(pool.Model, pool.FaceErrors, vtkNURBSParallelFor);
+    options.Precision = given.Precision *
+      nurbs::Diagonal(nurbs::FaceBoxes(pool.Model, pool.FaceErrors, vtkNURBSParallelFor));
     nurbs::Silhouettes result;
     const measuring::Stopwatch watch;
     result = nurbs::MakeSilhouettes(pool.Model, pool.FaceErrors, options);

@@ -2,6 +2,7 @@
 // vtkNURBSSilhouette in pipelines: arrays, kinds of lines, chains, where it is seen from, composite
 // inputs, CAD files, threads, errors, progress and abort.
 #include "../../testMessageKeeper.h"
+#include "ModelExtent.h"
 #include "nurbsSilhouetteReference.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModel.h"
@@ -352,7 +353,7 @@ TEST(NURBSSilhouette, CADFiles)
       {
         nurbs::SilhouetteOptions options;
         options.View = reference::Direction(direction[0], direction[1], direction[2]);
-        options.Precision = 1e-4 * nurbs::SampledSize(model, errors);
+        options.Precision = 1e-4 * nurbs::Diagonal(nurbs::FaceBoxes(model, errors));
         const nurbs::Silhouettes result = nurbs::MakeSilhouettes(model, errors, options);
         const reference::Measure measure = reference::MeasureLines(model, result, options.View);
         EXPECT_LE(measure.Chord, options.Precision) << file;

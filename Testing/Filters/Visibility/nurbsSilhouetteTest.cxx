@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Silhouettes of analytic shapes against their closed forms, and of others against dense grids of
 // signs.
+#include "ModelExtent.h"
 #include "Shapes.h"
 #include "nurbsSilhouetteReference.h"
 
@@ -488,7 +489,7 @@ TEST(Silhouette, AnyPrecision)
 {
   const Shape torus = Torus();
   const Viewer viewer = Direction(1, 2, 3);
-  const double size = nurbs::SampledSize(torus.Get(), { "" });
+  const double size = nurbs::Diagonal(nurbs::FaceBoxes(torus.Get(), { "" }));
   std::size_t before = 0;
   std::printf("precision (of the size)   points   seconds   chord / precision\n");
   for (int digits = 2; digits <= 8; ++digits)
