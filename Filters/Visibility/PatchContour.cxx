@@ -473,19 +473,33 @@ bool Tracer::IsTouching(const ContourArc& arc) const
   const Vec2 uv = arc.Inner.empty()
     ? Vec2(0.5 * (this->Nodes[arc.Start].UV + this->Nodes[arc.End].UV))
     : arc.Inner[arc.Inner.size() / 2].UV;
-  const Vec2 st((uv[0] - patch.U.Min) / patch.U.Length(), (uv[1] - patch.V.Min) / patch.V.Length());
+  Vec2 st((uv[0] - patch.U.Min) / patch.U.Length(), (uv[1] - patch.V.Min) / patch.V.Length());
   const auto evaluate = [&](const Vec2& p) {
     return EvaluateContour(
       patch, this->View, std::min(1.0, std::max(0.0, p[0])), std::min(1.0, std::max(0.0, p[1])));
   };
+  // The middle of a chord is not on the contour itself.
   constexpr double Steep = 1e-5;
-  if (evaluate(st).Gradient.norm() > Steep)
+  ContourValue value = evaluate(st);
+  for (int k = 0; k < 40 && std::abs(value.Cosine) > 1e-16; ++k)
+  {
+    const double steep = value.Gradient.norm();
+    if (steep > Steep || !(steep > 0.0))
+    {
+      return false;
+    }
+    const double step = std::min(0.05, std::abs(value.Cosine) / steep);
+    st -= std::copysign(step, value.Cosine) / steep * value.Gradient;
+    value = evaluate(st);
+  }
+  if (value.Gradient.norm() > Steep)
   {
     return false;
   }
   const Vec2 way = (this->Nodes[arc.End].UV - this->Nodes[arc.Start].UV)
                      .cwiseQuotient(Vec2(patch.U.Length(), patch.V.Length()));
-  const Vec2 aside = Vec2(-way[1], way[0]).normalized();
+  const Vec2 aside = value.Gradient.norm() > 1e-9 ? Vec2(value.Gradient.normalized())
+                                                  : Vec2(-way[1], way[0]).normalized();
   for (double h = 1e-6; h < 0.1; h *= 4.0)
   {
     const double low = evaluate(st - h * aside).Cosine;

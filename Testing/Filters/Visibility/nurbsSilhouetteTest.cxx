@@ -377,6 +377,28 @@ TEST(Silhouette, TouchingIsNoSilhouette)
   }
 }
 
+// Walls along the view but for a millionth: normal . view is 1e-6 at most, and its zeros are found.
+TEST(Silhouette, NearlyEdgeOn)
+{
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> real(-1.0, 1.0);
+  int changes = 0;
+  for (int k = 0; k < 10; ++k)
+  {
+    const nurbs::Surface wall = BezierSurface(2 + k % 3, 3 + k % 4, [&](double u, double v) {
+      return Vec3(u + 1e-6 * real(random), u * u + 1e-6 * real(random), v);
+    });
+    const Model model = OneFace(wall);
+    const Viewer viewer = Direction(0, 0, 1);
+    const Silhouettes result = Make(model, viewer, 1e-4);
+    ExpectExact(model, result, viewer, 1e-4);
+    const GridCheck grid = CheckGrid(model, 0, result, viewer, 1e-4, 200);
+    EXPECT_EQ(grid.Missed, 0) << k;
+    changes += grid.Changes;
+  }
+  EXPECT_GT(changes, 1000);
+}
+
 // Two patches that meet in a ridge: seen from the side, it is where the surface turns away.
 TEST(Silhouette, CreasesOfDegreeOne)
 {
