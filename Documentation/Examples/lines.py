@@ -8,14 +8,9 @@ file, over the surface.
 import argparse
 import os
 
-from vtkmodules import vtkRenderingOpenGL2  # noqa: F401, makes vtkRenderer draw with OpenGL
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkCompositePolyDataMapper2,
-    vtkRenderer,
-    vtkWindowToImageFilter,
-)
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingOpenGL2 import vtkCompositePolyDataMapper2
 
 from vtknurbs import (
     vtkNURBSCADReader,
