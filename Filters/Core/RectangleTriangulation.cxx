@@ -67,6 +67,10 @@ std::vector<std::array<int, 3>> TriangulateRectangle(
         shortest = length;
       }
     }
+    if (best == n) // All that are left are on one side: no rectangle.
+    {
+      return out;
+    }
     out.push_back({ left[(best + n - 1) % n], left[best], left[(best + 1) % n] });
     left.erase(left.begin() + std::ptrdiff_t(best));
   }

@@ -135,7 +135,7 @@ ZoneTriangles TriangulateZone(const Zone& zone)
   {
     const Triangulation::Face_handle f = stack.back();
     stack.pop_back();
-    if (f->info() == 2)
+    if (f->info() == 2 && !mesh.is_infinite(f)) // Walls that are not closed let it be in.
     {
       out.Triangles.push_back(
         { f->vertex(0)->info().Value, f->vertex(1)->info().Value, f->vertex(2)->info().Value });

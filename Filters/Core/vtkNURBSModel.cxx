@@ -422,6 +422,11 @@ const char* vtkNURBSModel::FaceIdName()
   return names::FaceId;
 }
 
+const char* vtkNURBSModel::WeightsName()
+{
+  return names::RationalWeights;
+}
+
 const char* vtkNURBSModel::EdgeIdName()
 {
   return names::EdgeId;

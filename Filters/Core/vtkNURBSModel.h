@@ -160,6 +160,11 @@ public:
   ///@}
 
   /**
+   * Name of the point array of the weights.
+   */
+  static const char* WeightsName();
+
+  /**
    * Unit of length of the points ("mm" unless the source says otherwise); empty if not stored.
    */
   static std::string GetLengthUnit(vtkUnstructuredGrid* grid);

@@ -115,6 +115,7 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
     ((patch.Recheck || this->Forest[index].Low - moved <= limit) && measure() <= limit))
   {
     this->MergeCell(index);
+    patch.Error = std::max(patch.Error, outside ? 0.0 : this->Forest[index].Up + moved);
   }
 }
 
@@ -596,6 +597,28 @@ std::int64_t DeformingFace::EstimateTriangles() const
       patch, [&](std::int32_t leaf) { count += this->Forest[leaf].State != CellState::Outside; });
   }
   return 2 * count;
+}
+
+void DeformingFace::Clear()
+{
+  for (std::int32_t cell = -1; cell < this->Forest.Size(); ++cell)
+  {
+    this->Slots.RemoveTriangles({ this->Index, cell });
+  }
+  for (const Patch& patch : this->Patches)
+  {
+    for (const std::int32_t point : patch.Vertices.Points)
+    {
+      this->Slots.RemovePoint(point);
+    }
+  }
+  for (const LoopVertex& vertex : this->LoopVertices)
+  {
+    if (vertex.Point >= 0)
+    {
+      this->Slots.RemovePoint(vertex.Point);
+    }
+  }
 }
 
 double DeformingFace::ErrorBound() const

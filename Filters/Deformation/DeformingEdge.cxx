@@ -17,6 +17,7 @@ constexpr double Straight = 1e-12;            // Of the box: no bend.
 constexpr int ClosedPieces = 4;               // That a closed edge has at least.
 constexpr double ShortestPiece = 1.0 / 65536; // Of the domain.
 constexpr int CreaseSamples = 64;
+constexpr double OnePoint = 1e-9; // Of the control net: a pole.
 
 } // namespace
 
@@ -52,9 +53,16 @@ DeformingEdge::DeformingEdge(
       this->Inner.push_back(u);
     }
   }
-  if (this->Inner.empty() || this->Pole)
+  if (this->Pole)
   {
     this->Inner.clear();
+    for (const DeformingUse& use : this->Where)
+    {
+      this->WasPoint.push_back(use.Side >= 0 && this->IsPoint(model, use));
+    }
+  }
+  if (this->Inner.empty())
+  {
     return;
   }
   std::vector<double> breaks = { this->Domain.Min, this->Domain.Max };
@@ -83,6 +91,42 @@ DeformingEdge::DeformingEdge(
     }
   }
   this->Roots = this->Pieces.size();
+}
+
+// Whether the side of the surface that a use runs along is one point.
+bool DeformingEdge::IsPoint(const Model& model, const DeformingUse& use) const
+{
+  const SurfaceView& surface = model.Faces[use.Face].Geometry;
+  Box3 box;
+  for (std::int64_t k = 0; k < surface.Size(); ++k)
+  {
+    box.extend(surface.Point(k));
+  }
+  return IsDegenerateSide(
+    surface, 1 - use.Side % 2, use.Side == 1 || use.Side == 2, OnePoint * box.diagonal().norm());
+}
+
+bool DeformingEdge::HasOpened(const Model& model) const
+{
+  for (std::size_t u = 0; u < this->Where.size(); ++u)
+  {
+    if (this->WasPoint[u] && !this->IsPoint(model, this->Where[u]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void DeformingEdge::RemoveVertices(const Faces& faces)
+{
+  for (const DeformingUse& use : this->Where)
+  {
+    for (std::size_t k = 1; k + 1 < use.Vertices.size(); ++k)
+    {
+      faces[use.Face]->RemoveLoopVertex(use.Vertices[k]);
+    }
+  }
 }
 
 // Parameters of a use at a parameter of the edge; on sides and creases exactly.

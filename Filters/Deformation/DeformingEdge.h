@@ -51,6 +51,10 @@ public:
   bool Force(const Model& model, std::int32_t piece);
   /// Gives faces and edge the vertices that pieces and cells ask for. Returns whether they changed.
   bool Update(const Model& model, const Faces& faces);
+  /// Removes the faces' vertices that are the edge's alone.
+  void RemoveVertices(const Faces& faces);
+  /// True if a pole's side was a point and is none any more.
+  bool HasOpened(const Model& model) const;
   /// The largest bound of a piece's error when it was checked.
   double Error() const { return this->LargestError; }
 
@@ -91,7 +95,10 @@ private:
     const std::vector<std::vector<std::int64_t>>& lines);
 
   Interval Domain;
+  bool IsPoint(const Model& model, const DeformingUse& use) const;
+
   std::int64_t PoleVertex = -1;
+  std::vector<char> WasPoint; ///< A pole's uses along sides.
   bool Pole = false;
   std::vector<DeformingUse> Where;
   std::vector<std::size_t> Inner; ///< Uses that are not along sides.

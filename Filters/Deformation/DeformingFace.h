@@ -105,6 +105,9 @@ public:
   /// The leaves' lines along a side of the grid, ascending.
   void SideLines(int side, std::vector<std::uint32_t>& lines) const;
 
+  /// Removes all points and triangles.
+  void Clear();
+
   // Loop vertices, by those who know the edges.
 
   std::int32_t AddLoopVertex(const Vec2& uv, std::int64_t modelVertex);

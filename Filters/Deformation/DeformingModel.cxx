@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeformingModel.h"
 
+#include "Stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace nurbs
@@ -11,34 +12,12 @@ namespace nurbs
 namespace
 {
 
-constexpr int MaximumRounds = 12;     // Of refinement of one frame.
-constexpr int CrossingRounds = 6;     // Of these, for loops that cross.
-constexpr int BudgetRounds = 60;      // Of coarsening.
-constexpr double CoarsenStep = 1.25;  // Of the tolerance in a round.
-constexpr double RelaxShare = 0.85;   // Of the budget: below, the tolerance falls again.
-constexpr double SnapDistance = 1e-9; // Of a face's box: corners on its sides.
-constexpr double OnePlace = 1e-12;    // Of the size: control points in one place.
-
-class Stopwatch
-{
-public:
-  double Lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
-};
-
-ParameterBox UsedBox(const Model& model, const Face& face)
-{
-  const Box2 box = LoopsBox(model, face);
-  return { box.min()[0], box.max()[0], box.min()[1], box.max()[1] };
-}
+constexpr int MaximumRounds = 12;    // Of refinement of one frame.
+constexpr int CrossingRounds = 6;    // Of these, for loops that cross.
+constexpr int BudgetRounds = 60;     // Of coarsening.
+constexpr double CoarsenStep = 1.25; // Of the tolerance in a round.
+constexpr double RelaxShare = 0.85;  // Of the budget: below, the tolerance falls again.
+constexpr double OnePlace = 1e-12;   // Of the size: control points in one place.
 
 Vec3 ControlCenter(const SurfaceView& surface)
 {
@@ -57,164 +36,6 @@ double Viewer::Importance(const Vec3& place) const
   const double near = this->Parallel ? 1.0 : std::min(1.0, this->FullDetail / distance);
   const double sight = angle <= this->SightAngle ? 1.0 : this->SightAngle / angle;
   return std::max(this->LeastImportance, near * sight);
-}
-
-DeformingModel::DeformingModel(const Model& model, const std::vector<std::string>& faceErrors,
-  const DeformingOptions& options, MeshArrays& mesh)
-  : Options(options)
-  , Data(CompleteModel(model, faceErrors, options.SideTolerance))
-  , Slots(mesh, [this](const TriangleOwner& owner) -> std::int32_t& {
-    return this->Faces[owner.Face]->FirstTriangle(owner.Cell);
-  })
-{
-  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
-  {
-    throw Error("the tolerance must be positive, but is " + std::to_string(options.Tolerance));
-  }
-  if (!(options.Hysteresis > 0.0) || !(options.Hysteresis <= 1.0))
-  {
-    throw Error(
-      "the hysteresis must be over 0 and at most 1, but is " + std::to_string(options.Hysteresis));
-  }
-  Stopwatch watch;
-  this->MakeFaces(faceErrors);
-  this->MakeCorners();
-  this->MakeEdges();
-  this->FaceTouched.assign(this->Faces.size(), 1);
-  this->EdgeChanged.assign(this->Edges.size(), 1);
-  this->GapAt.assign(this->CornersAt.size() + this->Edges.size(), 0.0);
-  this->UpdateEdges(nullptr, false);
-  for (const std::unique_ptr<DeformingFace>& face : this->Faces)
-  {
-    if (face)
-    {
-      face->ClassifyPatches();
-    }
-  }
-  this->Adapt(nullptr, true, options.Hysteresis);
-  this->Report.AdaptSeconds = watch.Lap();
-  this->Rebuild(nullptr);
-  this->KeepBudget(nullptr);
-  this->Finish();
-  this->Report.RebuildSeconds = watch.Lap();
-}
-
-DeformingModel::~DeformingModel() = default;
-
-void DeformingModel::MakeFaces(const std::vector<std::string>& faceErrors)
-{
-  const Model& model = this->Data.Data;
-  FaceOptions options;
-  options.Tolerance = this->Options.Tolerance;
-  options.Refine = this->Options.Refine && this->Options.FixedDepth < 0;
-  options.FixedDepth = this->Options.FixedDepth;
-  options.KeepCoefficients = this->Options.KeepCoefficients;
-  Box3 box;
-  std::int64_t controls = 0;
-  for (std::size_t f = 0; f < model.Faces.size(); ++f)
-  {
-    controls += faceErrors[f].empty() ? model.Faces[f].Geometry.Size() : 0;
-  }
-  for (std::size_t f = 0; f < model.Faces.size(); ++f)
-  {
-    this->Faces.emplace_back();
-    if (!faceErrors[f].empty())
-    {
-      continue;
-    }
-    const Face& face = model.Faces[f];
-    for (std::int64_t k = 0; k < face.Geometry.Size(); ++k)
-    {
-      box.extend(face.Geometry.Point(k));
-    }
-    options.MaximumSums = std::int64_t(
-      double(this->Options.MemoryLimit) * (double(face.Geometry.Size()) / double(controls)));
-    const ParameterBox used = UsedBox(model, face);
-    if (used.A() > 0.0 && used.B() > 0.0)
-    {
-      this->Faces.back() = std::make_unique<DeformingFace>(
-        face.Geometry, face.Reversed, used, std::int32_t(f), this->Slots, options);
-    }
-  }
-  this->Size = box.isEmpty() ? 1.0 : box.diagonal().norm();
-}
-
-// One vertex a face and corner of its loops, where the next trim curve begins.
-void DeformingModel::MakeCorners()
-{
-  const Model& model = this->Data.Data;
-  this->CornerOf.assign(model.TrimCurves.size(), -1);
-  this->CornersAt.resize(model.Vertices.size());
-  for (std::size_t f = 0; f < this->Faces.size(); ++f)
-  {
-    const Face& face = model.Faces[f];
-    for (std::int64_t l = face.FirstLoop; this->Faces[f] && l < face.FirstLoop + face.LoopCount;
-         ++l)
-    {
-      const TrimLoop& loop = model.Loops[l];
-      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
-      {
-        const TrimCurve& curve = model.TrimCurves[c];
-        const Interval domain = curve.Geometry.Domain();
-        Vec2 uv = Evaluate(curve.Geometry, curve.Reversed ? domain.Max : domain.Min);
-        const ParameterBox& box = this->Faces[f]->Used();
-        const double low[2] = { box.U0, box.V0 };
-        const double high[2] = { box.U1, box.V1 };
-        for (int d = 0; d < 2; ++d)
-        {
-          const double near = SnapDistance * (high[d] - low[d]);
-          uv[d] = uv[d] <= low[d] + near ? low[d] : uv[d] >= high[d] - near ? high[d] : uv[d];
-        }
-        const std::int64_t vertex = model.Edges[curve.Edge].Vertex[curve.Reversed ? 1 : 0];
-        this->CornerOf[c] = this->Faces[f]->AddLoopVertex(uv, vertex);
-        this->CornersAt[vertex].push_back({ std::int32_t(f), this->CornerOf[c] });
-      }
-    }
-  }
-}
-
-void DeformingModel::MakeEdges()
-{
-  const Model& model = this->Data.Data;
-  std::vector<std::vector<DeformingUse>> uses(model.Edges.size());
-  this->UseOf.assign(model.TrimCurves.size(), -1);
-  this->EdgesOf.resize(this->Faces.size());
-  for (std::size_t f = 0; f < this->Faces.size(); ++f)
-  {
-    const Face& face = model.Faces[f];
-    for (std::int64_t l = face.FirstLoop; this->Faces[f] && l < face.FirstLoop + face.LoopCount;
-         ++l)
-    {
-      const TrimLoop& loop = model.Loops[l];
-      for (std::int64_t k = 0; k < loop.CurveCount; ++k)
-      {
-        const std::int64_t c = loop.FirstCurve + k;
-        const std::int64_t next = loop.FirstCurve + (k + 1) % loop.CurveCount;
-        const TrimCurve& curve = model.TrimCurves[c];
-        DeformingUse use;
-        use.Face = std::int32_t(f);
-        use.Curve = c;
-        use.Ends[curve.Reversed ? 1 : 0] = this->CornerOf[c];
-        use.Ends[curve.Reversed ? 0 : 1] = this->CornerOf[next];
-        this->UseOf[c] = int(uses[curve.Edge].size());
-        uses[curve.Edge].push_back(use);
-        std::vector<std::int32_t>& edges = this->EdgesOf[f];
-        if (std::find(edges.begin(), edges.end(), curve.Edge) == edges.end())
-        {
-          edges.push_back(std::int32_t(curve.Edge));
-        }
-      }
-    }
-  }
-  this->Edges.resize(model.Edges.size());
-  for (std::size_t e = 0; e < uses.size(); ++e)
-  {
-    if (!uses[e].empty())
-    {
-      this->Edges[e] =
-        std::make_unique<DeformingEdge>(model, std::int64_t(e), std::move(uses[e]), this->Faces);
-    }
-  }
 }
 
 double DeformingModel::Scale(const Viewer* viewer, const Vec3& place) const
@@ -464,6 +285,15 @@ std::string DeformingModel::Check(const Model& model) const
   return "";
 }
 
+// True if a side that was a point when the edge was made is none any more.
+bool DeformingModel::HasOpenPole(const Model& model) const
+{
+  return std::any_of(
+    this->Edges.begin(), this->Edges.end(), [&](const std::unique_ptr<DeformingEdge>& edge) {
+      return edge && edge->IsPole() && edge->HasOpened(model);
+    });
+}
+
 FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
 {
   const FrameReport last = this->Report;
@@ -477,6 +307,13 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
     this->Report = last;
     this->Report.Accepted = false;
     this->Report.Problem = problem;
+    return this->Report;
+  }
+  if (this->HasOpenPole(model))
+  {
+    this->Report = last;
+    this->Report.Accepted = false;
+    this->Report.NeedsReplacement = true;
     return this->Report;
   }
   const auto forFaces = [&](const std::function<void(std::int64_t)>& f) {
@@ -512,6 +349,10 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
   {
     const bool everything = viewer != nullptr || this->HadViewer || this->Coarsening > 1.0;
     this->HadViewer = viewer != nullptr;
+    if (everything)
+    {
+      std::fill(this->FaceTouched.begin(), this->FaceTouched.end(), 1);
+    }
     this->Adapt(viewer, everything, this->Options.Hysteresis);
     this->Report.AdaptSeconds = watch.Lap();
     this->Rebuild(viewer);

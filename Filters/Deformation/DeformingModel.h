@@ -45,7 +45,8 @@ struct DeformingOptions
 struct FrameReport
 {
   bool Accepted = true;
-  std::string Problem; ///< Why the frame was refused; names the control point.
+  std::string Problem;           ///< Why the frame was refused; names the control point.
+  bool NeedsReplacement = false; ///< It was, as a pole opened: call for a new DeformingModel.
   std::int64_t MovedControlPoints = 0, UpdatedVertices = 0;
   std::int64_t InsertedVertices = 0, DeletedVertices = 0;
   bool TopologyChanged = false;
@@ -73,7 +74,12 @@ public:
   /// with a control point that is not finite, moved by more than LargestMove or has a weight <= 0, or
   /// with all control points of a face in one place, is refused as a whole: the mesh stays.
   FrameReport Update(const Model& model, const Viewer* viewer = nullptr);
-  /// What the constructor did.
+  /// Makes the faces that are marked anew, whose knots or trims changed, and keeps the others; the edges
+  /// between them follow. Returns false, and does nothing, if the models' topologies differ: a new
+  /// DeformingModel is called for then. Otherwise FirstFrame tells what it did.
+  bool Replace(const Model& model, const std::vector<std::string>& faceErrors,
+    const std::vector<char>& changed);
+  /// What the constructor (or Replace) did.
   const FrameReport& FirstFrame() const { return this->Report; }
   /// True for points that the last frame moved or added; one a point of the mesh.
   const std::vector<unsigned char>& ChangedPoints() const { return this->Changed; }
@@ -86,9 +92,12 @@ private:
     std::int32_t Face, Vertex;
   };
 
-  void MakeFaces(const std::vector<std::string>& faceErrors);
-  void MakeCorners();
-  void MakeEdges();
+  void Measure(const std::vector<std::string>& faceErrors);
+  void MakeFaces(const std::vector<char>& marked, const std::vector<std::string>& faceErrors);
+  void MakeFace(std::int32_t face);
+  void MakeCorner(std::int32_t face, std::int64_t curve);
+  void MakeEdges(const std::vector<char>& marked);
+  bool HasOpenPole(const Model& model) const;
   std::string Check(const Model& model) const;
   void Adapt(const Viewer* viewer, bool everything, double hysteresis);
   void KeepBudget(const Viewer* viewer);
@@ -113,8 +122,9 @@ private:
   std::vector<std::vector<Corner>> CornersAt; ///< Of each vertex of the model.
   std::vector<int> UseOf;                     ///< Of each trim curve in its edge.
   std::vector<char> FaceTouched, EdgeChanged;
-  double Coarsening = 1.0; ///< Of all tolerances, for the budget's sake.
-  double Size = 0.0;       ///< Of the first frame's control points.
+  double Coarsening = 1.0;     ///< Of all tolerances, for the budget's sake.
+  double BytesOfControl = 0.0; ///< A control point's share of MemoryLimit.
+  double Size = 0.0;           ///< Of the first frame's control points.
   bool HadViewer = false;
   std::vector<double> GapAt; ///< Of vertices, then of edges: distance of the faces there.
   FrameReport Report;

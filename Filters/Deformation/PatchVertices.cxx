@@ -128,7 +128,7 @@ NURBS_INLINE void RunLoop(const Loop& loop, bool accumulate, bool keep)
     for (int k = 0; k < some; ++k)
     {
       const std::size_t at = first + k;
-      double* kept = all + at * SumSize;
+      double* const kept = accumulate || keep ? all + at * SumSize : nullptr;
       if (accumulate)
       {
         h[k] = Quad::Load(kept);

@@ -27,8 +27,9 @@ vtkCxxSetObjectMacro(vtkNURBSDeformingTessellator, Camera, vtkCamera);
 namespace
 {
 
-constexpr int MaxNamedFaces = 8;  // in the warning
-constexpr double SameSide = 1e-7; // Of the diagonal: sides that coincide.
+constexpr int MaxNamedFaces = 8;     // in the warning
+constexpr std::size_t MaxFormer = 8; // Times that faces are replaced before all are.
+constexpr double SameSide = 1e-7;    // Of the diagonal: sides that coincide.
 constexpr double Mebibyte = 1048576.0;
 
 double Now()
@@ -42,6 +43,23 @@ bool IsSame(const nurbs::Viewer& a, const nurbs::Viewer& b)
   return a.Eye == b.Eye && a.Direction == b.Direction && a.Parallel == b.Parallel &&
     a.FullDetail == b.FullDetail && a.SightAngle == b.SightAngle &&
     a.LeastImportance == b.LeastImportance;
+}
+
+// Adds what an earlier step of the same frame did.
+void Include(const nurbs::FrameReport& earlier, nurbs::FrameReport& report)
+{
+  report.TopologyChanged = report.TopologyChanged || earlier.TopologyChanged;
+  report.InsertedVertices += earlier.InsertedVertices;
+  report.DeletedVertices += earlier.DeletedVertices;
+  report.AdaptSeconds += earlier.AdaptSeconds;
+  report.RebuildSeconds += earlier.RebuildSeconds;
+  if (earlier.FirstTriangle >= 0)
+  {
+    report.FirstTriangle = report.FirstTriangle < 0
+      ? earlier.FirstTriangle
+      : std::min(report.FirstTriangle, earlier.FirstTriangle);
+    report.LastTriangle = std::max(report.LastTriangle, earlier.LastTriangle);
+  }
 }
 
 std::int64_t ControlPoints(const nurbs::Model& model)
@@ -60,15 +78,18 @@ std::int64_t ControlPoints(const nurbs::Model& model)
 struct vtkNURBSDeformingTessellator::Leaf
 {
   explicit Leaf(vtkUnstructuredGrid* grid)
-    : Source(grid)
+    : Source(std::make_unique<vtkNURBSFrameModel>(grid))
   {}
 
-  vtkNURBSFrameModel Source;
+  std::unique_ptr<vtkNURBSFrameModel> Source;
+  /// Of frames before faces were replaced: the kernel's other faces are views into them.
+  std::vector<std::unique_ptr<vtkNURBSFrameModel>> Former;
   vtkNURBSDeformingOutput Output;
   std::unique_ptr<nurbs::DeformingModel> Kernel;
   nurbs::FrameReport Report;
   nurbs::Viewer Viewer; ///< Of the last frame, if there was one.
   bool HadViewer = false;
+  bool HalfDone = false; ///< The kernel is at work on the mesh.
 
   void SetViewer(const Frame& frame);
   bool HasViewerOf(const Frame& frame) const;
@@ -187,12 +208,12 @@ void vtkNURBSDeformingTessellator::FindNewLeaves(Frame& frame)
   {
     const double start = Now();
     vtkUnstructuredGrid* grid = frame.Blocks[k].Grid;
-    if (!this->Leaves[k] || !this->Leaves[k]->Source.HasStructureOf(grid))
+    if (!this->Leaves[k] || !this->Leaves[k]->Source->HasStructureOf(grid))
     {
       frame.Fresh[k] = std::make_unique<Leaf>(grid);
     }
     const Leaf& leaf = frame.Fresh[k] ? *frame.Fresh[k] : *this->Leaves[k];
-    frame.Controls += ControlPoints(leaf.Source.GetModel());
+    frame.Controls += ControlPoints(leaf.Source->GetModel());
     frame.LookSeconds.push_back(Now() - start);
   }
 }
@@ -207,10 +228,10 @@ void vtkNURBSDeformingTessellator::SetDiagonal(const Frame& frame)
     {
       return;
     }
-    if (leaf->Source.GetProblem().empty())
+    if (leaf->Source->GetProblem().empty())
     {
       const std::vector<nurbs::Box3> some = nurbs::FaceBoxes(
-        leaf->Source.GetModel(), leaf->Source.GetFaceErrors(), vtkNURBSParallelFor);
+        leaf->Source->GetModel(), leaf->Source->GetFaceErrors(), vtkNURBSParallelFor);
       boxes.insert(boxes.end(), some.begin(), some.end());
     }
   }
@@ -221,21 +242,11 @@ void vtkNURBSDeformingTessellator::SetDiagonal(const Frame& frame)
   }
 }
 
-// Meshes a model anew. If that can't be done what was there before stays.
-void vtkNURBSDeformingTessellator::MakeLeaf(Frame& frame, std::size_t k)
+// Collects what is wrong with a new model's faces for the warning.
+void vtkNURBSDeformingTessellator::NoteFaceErrors(Frame& frame, std::size_t k)
 {
   const vtkNURBSModelPool::Block& block = frame.Blocks[k];
-  Leaf& leaf = *frame.Fresh[k];
-  const std::vector<std::string>& errors = leaf.Source.GetFaceErrors();
-  const bool usable =
-    std::any_of(errors.begin(), errors.end(), [](const std::string& e) { return e.empty(); });
-  if (!leaf.Source.GetProblem().empty() || !usable)
-  {
-    frame.Problems.push_back(block.Name +
-      (usable || !leaf.Source.GetProblem().empty() ? leaf.Source.GetProblem()
-                                                   : "no face can be used: " + errors[0]));
-    return;
-  }
+  const std::vector<std::string>& errors = frame.Fresh[k]->Source->GetFaceErrors();
   for (std::size_t f = 0; f < errors.size(); ++f)
   {
     if (!errors[f].empty() && ++frame.BadFaces <= MaxNamedFaces)
@@ -244,7 +255,26 @@ void vtkNURBSDeformingTessellator::MakeLeaf(Frame& frame, std::size_t k)
                        << vtkNURBSModel::GetFaceId(block.Grid, vtkIdType(f)) << ": " << errors[f];
     }
   }
-  const double share = double(ControlPoints(leaf.Source.GetModel())) / double(frame.Controls);
+}
+
+// Meshes a model anew. If that can't be done what was there before stays.
+vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::MakeLeaf(
+  Frame& frame, std::size_t k)
+{
+  const vtkNURBSModelPool::Block& block = frame.Blocks[k];
+  Leaf& leaf = *frame.Fresh[k];
+  const std::vector<std::string>& errors = leaf.Source->GetFaceErrors();
+  const bool usable =
+    std::any_of(errors.begin(), errors.end(), [](const std::string& e) { return e.empty(); });
+  if (!leaf.Source->GetProblem().empty() || !usable)
+  {
+    frame.Problems.push_back(block.Name +
+      (usable || !leaf.Source->GetProblem().empty() ? leaf.Source->GetProblem()
+                                                    : "no face can be used: " + errors[0]));
+    return NOTHING;
+  }
+  this->NoteFaceErrors(frame, k);
+  const double share = double(ControlPoints(leaf.Source->GetModel())) / double(frame.Controls);
   nurbs::DeformingOptions options = frame.Options;
   options.Tolerance =
     this->ToleranceMode == ABSOLUTE ? this->AbsoluteTolerance : this->Diagonal * this->Tolerance;
@@ -254,65 +284,109 @@ void vtkNURBSDeformingTessellator::MakeLeaf(Frame& frame, std::size_t k)
     : 0;
   options.SideTolerance = this->JoinSides ? SameSide * this->Diagonal : -1.0;
   leaf.Kernel = std::make_unique<nurbs::DeformingModel>(
-    leaf.Source.GetModel(), errors, options, leaf.Output.GetStore());
+    leaf.Source->GetModel(), errors, options, leaf.Output.GetStore());
   leaf.Report = leaf.Kernel->FirstFrame();
   if (frame.HasViewer)
   {
-    leaf.Report = leaf.Kernel->Update(leaf.Source.GetModel(), &frame.Viewer);
+    leaf.Report = leaf.Kernel->Update(leaf.Source->GetModel(), &frame.Viewer);
     leaf.Report.InsertedVertices = leaf.Output.GetStore().PointCount;
     leaf.Report.DeletedVertices = 0;
   }
   leaf.SetViewer(frame);
   ++this->RebuiltModels;
   this->Leaves[k] = std::move(frame.Fresh[k]);
+  return MADE;
 }
 
-// Follows one model's control points. Returns whether its mesh may have changed.
-bool vtkNURBSDeformingTessellator::FollowLeaf(Frame& frame, std::size_t k)
+// Makes only those faces anew whose structure changed, if the others go on.
+vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::ReplaceFaces(
+  Frame& frame, std::size_t k)
+{
+  Leaf& leaf = *this->Leaves[k];
+  std::unique_ptr<vtkNURBSFrameModel>& source = frame.Fresh[k]->Source;
+  const std::vector<char> changed = source->FindChangedFaces(*leaf.Source);
+  const std::size_t count = std::size_t(std::count(changed.begin(), changed.end(), 1));
+  if (count == changed.size() || leaf.Former.size() >= MaxFormer || !source->GetProblem().empty())
+  {
+    return this->MakeLeaf(frame, k);
+  }
+  nurbs::FrameReport replaced;
+  if (count == 0)
+  {
+    leaf.Source->TakeStructure(*source);
+  }
+  else
+  {
+    leaf.HalfDone = true;
+    const bool fits = leaf.Kernel->Replace(source->GetModel(), source->GetFaceErrors(), changed);
+    leaf.HalfDone = false;
+    if (!fits)
+    {
+      return this->MakeLeaf(frame, k);
+    }
+    replaced = leaf.Kernel->FirstFrame();
+    this->NoteFaceErrors(frame, k);
+    this->ReplacedFaces += vtkIdType(count);
+    leaf.Former.push_back(std::move(leaf.Source));
+    leaf.Source = std::move(source);
+    leaf.Source->ForgetPoints();
+  }
+  frame.Fresh[k].reset();
+  const Deed deed = this->FollowLeaf(frame, k);
+  if (count > 0 && deed != MADE)
+  {
+    Include(replaced, leaf.Report);
+    return MADE;
+  }
+  return deed;
+}
+
+// Follows one model's control points.
+vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::FollowLeaf(
+  Frame& frame, std::size_t k)
 {
   const vtkNURBSModelPool::Block& block = frame.Blocks[k];
   Leaf& leaf = *this->Leaves[k];
-  if (leaf.Source.HasPointsOf(block.Grid) && leaf.HasViewerOf(frame))
+  if (leaf.Source->HasPointsOf(block.Grid) && leaf.HasViewerOf(frame))
   {
-    return false;
+    return NOTHING;
   }
-  leaf.Source.TakePoints(block.Grid);
+  leaf.Source->TakePoints(block.Grid);
+  leaf.HalfDone = true;
   leaf.Report =
-    leaf.Kernel->Update(leaf.Source.GetModel(), frame.HasViewer ? &frame.Viewer : nullptr);
-  if (!leaf.Report.Accepted)
+    leaf.Kernel->Update(leaf.Source->GetModel(), frame.HasViewer ? &frame.Viewer : nullptr);
+  leaf.HalfDone = false;
+  if (leaf.Report.Accepted)
   {
-    leaf.Source.ForgetPoints();
-    frame.Problems.push_back(block.Name + leaf.Report.Problem);
-    return false;
+    leaf.SetViewer(frame);
+    return FOLLOWED;
   }
-  leaf.SetViewer(frame);
-  return true;
+  leaf.Source->ForgetPoints();
+  if (leaf.Report.NeedsReplacement)
+  {
+    frame.Fresh[k] = std::make_unique<Leaf>(block.Grid);
+    return this->MakeLeaf(frame, k);
+  }
+  frame.Problems.push_back(block.Name + leaf.Report.Problem);
+  return NOTHING;
 }
 
-// This is the place to tell the kernel of single faces of another structure, once it can rebuild them.
 void vtkNURBSDeformingTessellator::UpdateLeaf(Frame& frame, std::size_t k)
 {
-  const bool isNew = frame.Fresh[k] != nullptr;
   const std::size_t problems = frame.Problems.size();
-  bool changed = false;
+  Deed deed = NOTHING;
   try
   {
-    if (isNew)
-    {
-      this->MakeLeaf(frame, k);
-      changed = !frame.Fresh[k];
-    }
-    else
-    {
-      changed = this->FollowLeaf(frame, k);
-    }
+    deed = !frame.Fresh[k] ? this->FollowLeaf(frame, k)
+      : this->Leaves[k]    ? this->ReplaceFaces(frame, k)
+                           : this->MakeLeaf(frame, k);
   }
   catch (const std::exception& problem)
   {
     frame.Problems.push_back(frame.Blocks[k].Name + "meshing failed: " + problem.what());
-    if (!isNew)
+    if (this->Leaves[k] && this->Leaves[k]->HalfDone)
     {
-      this->Leaves[k].reset(); // Its mesh may be half done.
+      this->Leaves[k].reset();
     }
   }
   Leaf* leaf = this->Leaves[k].get();
@@ -322,19 +396,18 @@ void vtkNURBSDeformingTessellator::UpdateLeaf(Frame& frame, std::size_t k)
   }
   const double start = Now();
   vtkUnstructuredGrid* grid = frame.Blocks[k].Grid;
-  const bool refused = frame.Problems.size() > problems;
-  if (!changed)
+  if (deed == NOTHING)
   {
     leaf->Output.Rest(leaf->Report, this->ChangedMask != 0);
   }
   else
   {
-    const std::vector<unsigned char> all(isNew ? leaf->Output.GetStore().PointCount : 0, 1);
+    const std::vector<unsigned char> all(deed == MADE ? leaf->Output.GetStore().PointCount : 0, 1);
     leaf->Output.Update(
-      leaf->Report, isNew ? all : leaf->Kernel->ChangedPoints(), this->ChangedMask != 0);
+      leaf->Report, deed == MADE ? all : leaf->Kernel->ChangedPoints(), this->ChangedMask != 0);
   }
   leaf->Report.CompareSeconds += frame.LookSeconds[k];
-  if (!refused)
+  if (deed != NOTHING || frame.Problems.size() == problems)
   {
     leaf->Output.TakeAttributes(grid, leaf->Report);
   }
@@ -419,7 +492,7 @@ void vtkNURBSDeformingTessellator::ClearResults()
   this->MovedControlPoints = this->UpdatedVertices = 0;
   this->InsertedVertices = this->DeletedVertices = 0;
   this->NumberOfTriangles = this->NumberOfPoints = 0;
-  this->RebuiltModels = this->RefusedModels = 0;
+  this->RebuiltModels = this->ReplacedFaces = this->RefusedModels = 0;
   this->ErrorBound = this->ModelGap = this->ToleranceUsed = 0.0;
   this->CompareSeconds = this->MoveSeconds = this->AdaptSeconds = 0.0;
   this->RebuildSeconds = this->OutputSeconds = 0.0;
@@ -488,6 +561,7 @@ void vtkNURBSDeformingTessellator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n";
   os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";
   os << indent << "RebuiltModels: " << this->RebuiltModels << "\n";
+  os << indent << "ReplacedFaces: " << this->ReplacedFaces << "\n";
   os << indent << "RefusedModels: " << this->RefusedModels << "\n";
   os << indent << "ErrorBound: " << this->ErrorBound << "\n";
   os << indent << "ModelGap: " << this->ModelGap << "\n";

@@ -7,8 +7,9 @@
  * both change from one update to the next by any means: Warp By Vector, a transform, a programmable
  * filter, time steps, an interactor. The first frame is meshed as Tolerance asks for. From then on the
  * filter compares control points with the last ones, updates the vertices that depend on those that
- * moved, makes cells finer or coarser where they need it, and keeps all else. Models whose structure
- * changed (degrees, knots, trims, connectivity) are meshed anew.
+ * moved, makes cells finer or coarser where they need it, and keeps all else. Faces whose structure
+ * changed (degrees, knots, trims, connectivity) are meshed anew, all of their model where faces, edges
+ * or vertices are not those that there were.
  *
  * Faces that share an edge have its points bit for bit at every frame, so that closed models have no
  * open edge. Where such faces are pulled apart the mesh is where the first of them is, and ModelGap
@@ -248,7 +249,7 @@ public:
   /**
    * What the last Update did, all models together: as the field data of the output, where ErrorBound,
    * ModelGap and ToleranceUsed are the largest of all models. RebuiltModels counts those that were
-   * meshed anew, RefusedModels those whose frame was refused. All are 0 before the first Update.
+   * meshed anew, ReplacedFaces the faces that alone were, RefusedModels the models whose frame was refused. All are 0 before the first Update.
    */
   vtkGetMacro(MovedControlPoints, vtkIdType);
   vtkGetMacro(UpdatedVertices, vtkIdType);
@@ -257,6 +258,7 @@ public:
   vtkGetMacro(NumberOfTriangles, vtkIdType);
   vtkGetMacro(NumberOfPoints, vtkIdType);
   vtkGetMacro(RebuiltModels, vtkIdType);
+  vtkGetMacro(ReplacedFaces, vtkIdType);
   vtkGetMacro(RefusedModels, vtkIdType);
   vtkGetMacro(ErrorBound, double);
   vtkGetMacro(ModelGap, double);
@@ -290,8 +292,16 @@ private:
   void FindNewLeaves(Frame& frame);
   void SetDiagonal(const Frame& frame);
   void UpdateLeaf(Frame& frame, std::size_t k);
-  void MakeLeaf(Frame& frame, std::size_t k);
-  bool FollowLeaf(Frame& frame, std::size_t k);
+  enum Deed
+  {
+    NOTHING,
+    FOLLOWED,
+    MADE
+  };
+  void NoteFaceErrors(Frame& frame, std::size_t k);
+  Deed MakeLeaf(Frame& frame, std::size_t k);
+  Deed ReplaceFaces(Frame& frame, std::size_t k);
+  Deed FollowLeaf(Frame& frame, std::size_t k);
   void FillOutput(vtkDataObject* input, vtkDataObject* output);
   bool Complain(const Frame& frame);
   void Summarize();
@@ -325,6 +335,7 @@ private:
   vtkIdType NumberOfTriangles = 0;
   vtkIdType NumberOfPoints = 0;
   vtkIdType RebuiltModels = 0;
+  vtkIdType ReplacedFaces = 0;
   vtkIdType RefusedModels = 0;
   double ErrorBound = 0.0;
   double ModelGap = 0.0;

@@ -13,6 +13,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -59,6 +60,50 @@ vtkSmartPointer<vtkDataArray> AsDoubles(vtkDataArray* array)
 const double* Values(vtkDataArray* array)
 {
   return array ? static_cast<const double*>(array->GetVoidPointer(0)) : nullptr;
+}
+
+template <typename T>
+bool AreEqual(const nurbs::ArrayView<T>& a, const nurbs::ArrayView<T>& b)
+{
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+}
+
+bool HaveOneStructure(const nurbs::SurfaceView& a, const nurbs::SurfaceView& b)
+{
+  return a.Degree[0] == b.Degree[0] && a.Degree[1] == b.Degree[1] && a.Count[0] == b.Count[0] &&
+    a.Count[1] == b.Count[1] && AreEqual(a.Knots[0], b.Knots[0]) &&
+    AreEqual(a.Knots[1], b.Knots[1]) && !a.Ids == !b.Ids &&
+    (!a.Ids || std::equal(a.Ids, a.Ids + a.Size(), b.Ids));
+}
+
+bool AreEqual(const nurbs::TrimCurve& a, const nurbs::TrimCurve& b)
+{
+  bool same = a.Edge == b.Edge && a.Reversed == b.Reversed &&
+    a.Geometry.Degree == b.Geometry.Degree && a.Geometry.Count == b.Geometry.Count &&
+    AreEqual(a.Geometry.Knots, b.Geometry.Knots);
+  for (int k = 0; same && k < a.Geometry.Count; ++k)
+  {
+    same = a.Geometry.Homogeneous(k) == b.Geometry.Homogeneous(k);
+  }
+  return same;
+}
+
+bool HaveOneStructure(
+  const nurbs::Model& a, const nurbs::Face& inA, const nurbs::Model& b, const nurbs::Face& inB)
+{
+  bool same = inA.Reversed == inB.Reversed && inA.LoopCount == inB.LoopCount &&
+    HaveOneStructure(inA.Geometry, inB.Geometry);
+  for (std::int64_t l = 0; same && l < inA.LoopCount; ++l)
+  {
+    const nurbs::TrimLoop& loop = a.Loops[inA.FirstLoop + l];
+    const nurbs::TrimLoop& other = b.Loops[inB.FirstLoop + l];
+    same = loop.CurveCount == other.CurveCount;
+    for (std::int64_t c = 0; same && c < loop.CurveCount; ++c)
+    {
+      same = AreEqual(a.TrimCurves[loop.FirstCurve + c], b.TrimCurves[other.FirstCurve + c]);
+    }
+  }
+  return same;
 }
 
 bool HasFitWeights(vtkUnstructuredGrid* grid)
@@ -135,6 +180,41 @@ bool vtkNURBSFrameModel::HasStructureOf(vtkUnstructuredGrid* grid)
   }
   this->StructureStamps = stamps;
   return true;
+}
+
+std::vector<char> vtkNURBSFrameModel::FindChangedFaces(const vtkNURBSFrameModel& other) const
+{
+  const nurbs::Model& a = this->Model;
+  const nurbs::Model& b = other.Model;
+  std::vector<char> changed;
+  if (a.Faces.size() != b.Faces.size() || a.Loops.size() != b.Loops.size() ||
+    a.TrimCurves.size() != b.TrimCurves.size() || a.Edges.size() != b.Edges.size())
+  {
+    return changed;
+  }
+  for (std::size_t e = 0; e < a.Edges.size(); ++e)
+  {
+    if (a.Edges[e].Vertex[0] != b.Edges[e].Vertex[0] ||
+      a.Edges[e].Vertex[1] != b.Edges[e].Vertex[1] ||
+      (a.Edges[e].Geometry.Count == 1) != (b.Edges[e].Geometry.Count == 1))
+    {
+      return changed;
+    }
+  }
+  for (std::size_t f = 0; f < a.Faces.size(); ++f)
+  {
+    const bool same = this->FaceErrors[f].empty() == other.FaceErrors[f].empty() &&
+      HaveOneStructure(a, a.Faces[f], b, b.Faces[f]);
+    changed.push_back(!same);
+  }
+  return changed;
+}
+
+void vtkNURBSFrameModel::TakeStructure(const vtkNURBSFrameModel& other)
+{
+  this->Arrays = other.Arrays;
+  this->StructureStamps = other.StructureStamps;
+  this->PointCount = other.PointCount;
 }
 
 bool vtkNURBSFrameModel::HasPointsOf(vtkUnstructuredGrid* grid) const

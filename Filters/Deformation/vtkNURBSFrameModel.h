@@ -35,6 +35,13 @@ public:
   /// Makes HasPointsOf false until the next TakePoints.
   void ForgetPoints() { this->PointStamps.clear(); }
 
+  /// One a face: whether its structure is not the one it has in `other`. Empty if the numbers of faces,
+  /// loops, trim curves or edges differ, or the edges' vertices.
+  std::vector<char> FindChangedFaces(const vtkNURBSFrameModel& other) const;
+
+  /// Compares with the grid of `other`, in which no face changed, from now on.
+  void TakeStructure(const vtkNURBSFrameModel& other);
+
   const nurbs::Model& GetModel() const { return this->Model; }
   const std::vector<std::string>& GetFaceErrors() const { return this->FaceErrors; }
   const vtkNURBSModelView& GetView() const { return *this->View; }

@@ -26,10 +26,12 @@ set(nurbs_vtk_components
   IOPLY
   IOXML
   InteractionStyle
+  InteractionWidgets
   RenderingAnnotation
   RenderingCore
   RenderingFreeType
   RenderingOpenGL2
+  RenderingUI
   WrappingPythonCore
   Python
   opengl)

@@ -278,6 +278,46 @@ TEST(NURBSDeformingTessellator, StructuresThatChange)
   EXPECT_LE(scene::Compare(Mesh(filter), copy).Point, 1e-12);
 }
 
+// Where one face of several has other knots it alone is made anew.
+TEST(NURBSDeformingTessellator, FacesThatChange)
+{
+  const auto grid = Shape(vtkNURBSShapeSource::TEAPOT);
+  const auto rest = scene::Rest(grid);
+  vtkNew<Filter> filter;
+  filter->SetInputData(grid);
+  filter->SetTolerance(1e-3);
+  filter->Update();
+  const vtkSmartPointer<vtkPoints> points = Mesh(filter)->GetPoints();
+  auto* knots = vtkDoubleArray::SafeDownCast(grid->GetFieldData()->GetArray("Knots"));
+  vtkDataArray* starts = grid->GetCellData()->GetArray("KnotStart");
+  vtkDataArray* sizes = grid->GetCellData()->GetArray("NetSize");
+  ASSERT_TRUE(knots && starts && sizes);
+  for (int frame = 1; frame <= 3; ++frame)
+  {
+    // The end of a face's knots of v, where the weights of its last row are all that counts.
+    const vtkIdType cell = 3 * frame;
+    const auto first = vtkIdType(starts->GetComponent(cell, 1));
+    const auto last = first + vtkIdType(sizes->GetComponent(cell, 1)) + 3;
+    knots->SetValue(first, knots->GetValue(first) - 0.25 * frame);
+    EXPECT_GT(knots->GetValue(last), knots->GetValue(first));
+    knots->Modified();
+    scene::Wave(grid, rest, 0.01 * frame);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), (unsigned long)vtkErrorCode::NoError);
+    EXPECT_EQ(filter->GetRebuiltModels(), 0);
+    EXPECT_GE(filter->GetReplacedFaces(), 1);
+    EXPECT_LT(filter->GetReplacedFaces(), grid->GetNumberOfCells() / 2);
+    EXPECT_EQ(Mesh(filter)->GetPoints(), points);
+    EXPECT_LE(
+      scene::Compare(Mesh(filter), grid).Point, filter->GetModelGap() + 1e-12 * scene::Size(grid));
+    double open = 0.0;
+    scene::OpenEdges(Mesh(filter), &open);
+    const double border = scene::BorderLength(grid);
+    EXPECT_LE(open, border * (1.0 + 1e-9));
+    EXPECT_GE(open, border * 0.98);
+  }
+}
+
 // Knots that are overwritten without a word do not reach the kernel, which works on copies.
 TEST(NURBSDeformingTessellator, KeepsCopiesOfTheStructure)
 {

@@ -70,12 +70,31 @@ inline void AddSheet(nurbs::ModelBuilder& builder, int spans, double height)
 struct MeshCounts
 {
   std::int64_t Open = 0;   ///< Edges that one triangle has.
+  std::int64_t Inside = 0; ///< Of these, those that are not on a side of their face's domain.
   std::int64_t Turned = 0; ///< That two have, the same way around.
   std::int64_t Beyond = 0; ///< Corners that are no points.
 };
 
+/// True if both points are on one side of a surface's domain.
+inline bool AreOnSide(const nurbs::SurfaceView& surface, const double* a, const double* b)
+{
+  for (int d = 0; d < 2; ++d)
+  {
+    const nurbs::Interval domain = surface.Domain(d);
+    for (const double side : { domain.Min, domain.Max })
+    {
+      const double near = 1e-9 * domain.Length();
+      if (std::abs(a[d] - side) <= near && std::abs(b[d] - side) <= near)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Counts edges by the places of their ends.
-inline MeshCounts Count(const nurbs::MeshArrays& mesh)
+inline MeshCounts Count(const nurbs::MeshArrays& mesh, const nurbs::Model& model)
 {
   using Place = std::array<double, 3>;
   std::map<Place, int> ids;
@@ -85,8 +104,13 @@ inline MeshCounts Count(const nurbs::MeshArrays& mesh)
     const double* p = mesh.Points + 3 * k;
     id[k] = ids.emplace(Place{ p[0] + 0.0, p[1] + 0.0, p[2] + 0.0 }, int(ids.size())).first->second;
   }
+  struct Edge
+  {
+    int Triangles = 0, Way = 0;
+    bool OnSide = false;
+  };
   MeshCounts out;
-  std::map<std::pair<int, int>, std::pair<int, int>> edges;
+  std::map<std::pair<int, int>, Edge> edges;
   for (std::int64_t t = 0; t < mesh.TriangleCount; ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -100,16 +124,19 @@ inline MeshCounts Count(const nurbs::MeshArrays& mesh)
       }
       if (id[a] != id[b])
       {
-        auto& edge = edges[std::minmax(id[a], id[b])];
-        ++edge.first;
-        edge.second += id[a] < id[b] ? 1 : -1;
+        Edge& edge = edges[std::minmax(id[a], id[b])];
+        ++edge.Triangles;
+        edge.Way += id[a] < id[b] ? 1 : -1;
+        edge.OnSide =
+          AreOnSide(model.Faces[mesh.Faces[t]].Geometry, mesh.UV + 2 * a, mesh.UV + 2 * b);
       }
     }
   }
   for (const auto& edge : edges)
   {
-    out.Open += edge.second.first == 1;
-    out.Turned += edge.second.first == 2 && edge.second.second != 0;
+    out.Open += edge.second.Triangles == 1;
+    out.Inside += edge.second.Triangles == 1 && !edge.second.OnSide;
+    out.Turned += edge.second.Triangles == 2 && edge.second.Way != 0;
   }
   return out;
 }

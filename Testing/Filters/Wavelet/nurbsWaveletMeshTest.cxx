@@ -126,6 +126,30 @@ TEST(nurbsWaveletMesh, ZoneIsBetweenItsWalls)
   EXPECT_EQ(OpenEdges(made.Triangles), 12u);
 }
 
+// No sound caller asks for these; what can't be meshed is left out.
+TEST(nurbsWaveletMesh, WallsThatDoNotCloseAndFlatRectangles)
+{
+  nurbs::Zone zone;
+  zone.Points = { Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0), Vec2(2.0, 3.0) };
+  zone.Walls = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 4 } };
+  for (const std::array<int, 3>& t : nurbs::TriangulateZone(zone).Triangles)
+  {
+    for (const int corner : t)
+    {
+      EXPECT_GE(corner, 0);
+      EXPECT_LT(corner, 5);
+    }
+  }
+  std::vector<Vec2> corners;
+  std::vector<Vec3> points;
+  for (int k = 0; k < 6; ++k)
+  {
+    corners.emplace_back(0.2 * k, 0.0);
+    points.emplace_back(0.2 * k, 0.0, 0.0);
+  }
+  EXPECT_TRUE(nurbs::TriangulateRectangle(corners, points).empty());
+}
+
 TEST(nurbsWaveletMesh, LinesAreEdgesAndNoWalls)
 {
   nurbs::Zone zone;
