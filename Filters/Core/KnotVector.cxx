@@ -79,6 +79,10 @@ int FindSpan(KnotView knots, int degree, double t)
 {
   const double* first = knots.begin() + degree;
   const double* last = knots.end() - degree - 1; // the domain's end
+  if (last - first == 1)
+  {
+    return degree; // There is one span only, as in the planes and lines of CAD models.
+  }
   const double* above = std::upper_bound(first, last, t);
   if (above == first) // before the domain, or NaN
   {

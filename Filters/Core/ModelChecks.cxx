@@ -334,31 +334,30 @@ std::vector<EdgeUse> FirstUses(const Model& model)
   return uses;
 }
 
-/// Start, middle and end of a trim curve on its surface.
-std::array<Vec3, 3> LiftedPoints(const SurfaceView& surface, const CurveView<2>& curve)
+/// Where edges are compared, as parts of their domain: both ends, and two places between that
+/// symmetric deformations do not single out. A wave that leaves the ends and the middle in place moves
+/// those.
+constexpr std::array<double, 4> ComparedParts = { { 0.0, 1.0, 0.5683, 0.2137 } };
+using ComparedPoints = std::array<Vec3, ComparedParts.size()>;
+
+template <int D>
+double ComparedParameter(const CurveView<D>& curve, double part)
+{
+  const Interval range = curve.Domain();
+  return part == 1.0 ? range.Max : range.Clamp(range.Min + part * range.Length());
+}
+
+/// Points of a trim curve on its surface.
+ComparedPoints LiftedPoints(const SurfaceView& surface, const CurveView<2>& curve)
 {
   const DomainBox domain(surface);
-  const Interval range = curve.Domain();
-  std::array<Vec3, 3> points;
-  for (int i = 0; i < 3; ++i)
+  ComparedPoints points;
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec2 uv =
-      domain.Clamp(Evaluate(curve, range.Clamp(range.Min + 0.5 * i * range.Length())));
+    const Vec2 uv = domain.Clamp(Evaluate(curve, ComparedParameter(curve, ComparedParts[i])));
     points[i] = Evaluate(surface, uv[0], uv[1]);
   }
   return points;
-}
-
-std::array<Vec3, 3> EdgePoints(const CurveView<3>& curve)
-{
-  if (curve.Degree == 0)
-  {
-    const Vec3 point = curve.Point(0);
-    return { { point, point, point } };
-  }
-  const Interval range = curve.Domain();
-  return { { Evaluate(curve, range.Min), Evaluate(curve, range.Min + 0.5 * range.Length()),
-    Evaluate(curve, range.Max) } };
 }
 
 double ModelSize(const Model& model)
@@ -391,15 +390,20 @@ void ReleaseEdge(AssembledModel& result, Edge& edge, const Vec3& point)
 }
 
 /// True if the edge's curve is known and farther than `limit` from the lifted trim curve.
-bool CurveMoved(const Edge& edge, const std::array<Vec3, 3>& lifted, double limit)
+bool CurveMoved(const Edge& edge, const ComparedPoints& lifted, double limit)
 {
-  if (edge.Geometry.Count == 0)
+  const CurveView<3>& curve = edge.Geometry;
+  for (std::size_t i = 0; i < lifted.size() && curve.Count > 0; ++i)
   {
-    return false;
+    const Vec3 own = curve.Degree == 0
+      ? curve.Point(0)
+      : Evaluate(curve, ComparedParameter(curve, ComparedParts[i]));
+    if (!((own - lifted[i]).norm() <= limit))
+    {
+      return true;
+    }
   }
-  const std::array<Vec3, 3> own = EdgePoints(edge.Geometry);
-  return !((own[0] - lifted[0]).norm() <= limit && (own[1] - lifted[1]).norm() <= limit &&
-    (own[2] - lifted[2]).norm() <= limit);
+  return false;
 }
 
 } // namespace
@@ -409,7 +413,7 @@ void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
   Model& model = result.Model;
   const std::vector<EdgeUse> uses = FirstUses(model);
   const double negligible = 1e-6 * ModelSize(model);
-  std::vector<std::array<Vec3, 3>> lifted(model.Edges.size());
+  std::vector<ComparedPoints> lifted(model.Edges.size());
   std::vector<char> moved(model.Edges.size(), 0);
   parallel(0, model.Edges.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end; ++e)
@@ -432,15 +436,15 @@ void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
     for (int i = 0; i < 2 && (moved[e] || unknown); ++i)
     {
       Vec3* vertex = edge.Vertex[i] >= 0 ? &model.Vertices[edge.Vertex[i]] : nullptr;
-      if (vertex && !((*vertex - lifted[e][2 * i]).norm() <= limit))
+      if (vertex && !((*vertex - lifted[e][i]).norm() <= limit))
       {
-        *vertex = lifted[e][2 * i];
+        *vertex = lifted[e][i];
       }
     }
     if (moved[e])
     {
       first = ++count == 1 ? static_cast<std::int64_t>(e) : first;
-      ReleaseEdge(result, edge, lifted[e][1]);
+      ReleaseEdge(result, edge, lifted[e][2]);
     }
   }
   if (count > 0)

@@ -21,7 +21,7 @@ std::string CheckLoops(
 /// nothing away.
 bool IsNaturallyBounded(const Model& model, const Face& face);
 
-/// Compares every edge with the first trim curve that names it, at both ends and in the middle. An
+/// Compares every edge with the first trim curve that names it, at both ends and between. An
 /// edge that is farther away than four times its tolerance (and 1e-6 of the model's size) was left
 /// behind when points were moved: AssembleOptions::CheckEdges says what happens then.
 void ReleaseMovedEdges(AssembledModel& model, const ParallelFor& parallel);

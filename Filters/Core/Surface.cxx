@@ -128,11 +128,27 @@ SurfaceDerivatives ProjectDerivatives(const Vec4 (&h)[3][3], int order)
   return d;
 }
 
+// HomogeneousDerivatives of order 0, which is asked for far more often than the others.
 Vec3 Evaluate(const SurfaceView& surface, double u, double v)
 {
-  Vec4 h[3][3];
-  HomogeneousDerivatives(surface, u, v, 0, h);
-  return h[0][0].head<3>() / h[0][0][3];
+  const int p = surface.Degree[0], q = surface.Degree[1];
+  double Nu[MaxDegree + 1], Nv[MaxDegree + 1];
+  const int spanU = FindSpan(surface.Knots[0], p, u);
+  const int spanV = FindSpan(surface.Knots[1], q, v);
+  EvaluateBasis(surface.Knots[0], p, spanU, u, Nu);
+  EvaluateBasis(surface.Knots[1], q, spanV, v, Nv);
+  Vec4 h = Vec4::Zero();
+  for (int j = 0; j <= q; ++j)
+  {
+    const std::int64_t row = std::int64_t(spanV - q + j) * surface.Count[0] + spanU - p;
+    Vec4 inner = Vec4::Zero();
+    for (int i = 0; i <= p; ++i)
+    {
+      inner += Nu[i] * surface.Homogeneous(row + i);
+    }
+    h += Nv[j] * inner;
+  }
+  return h.head<3>() / h[3];
 }
 
 SurfaceDerivatives EvaluateDerivatives(const SurfaceView& surface, double u, double v, int order)

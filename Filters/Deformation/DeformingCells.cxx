@@ -240,10 +240,7 @@ std::int32_t DeformingFace::Acquire(std::int32_t near, std::uint32_t i, std::uin
   }
   point = this->Slots.AddPoint(
     { this->Index, index, std::int32_t(vertices.Size()), 1 }, this->Lines.UV(i, j));
-  vertices.I.push_back(this->Lines.Axis[0].Line(i));
-  vertices.J.push_back(this->Lines.Axis[1].Line(j));
-  vertices.Points.push_back(point);
-  vertices.Keys.push_back(key);
+  vertices.Add(this->Lines.Axis[0].Line(i), this->Lines.Axis[1].Line(j), point, key);
   patch.PointAt.Set(key, point);
   this->MarkAround(near, i, j);
   return point;
@@ -261,22 +258,9 @@ void DeformingFace::Release(std::int32_t near, std::int32_t point)
   PatchVertices& vertices = patch.Vertices;
   const std::uint64_t key = vertices.Keys[use.Index];
   const std::size_t last = vertices.Size() - 1;
-  vertices.I[use.Index] = vertices.I[last];
-  vertices.J[use.Index] = vertices.J[last];
-  vertices.Points[use.Index] = vertices.Points[last];
-  vertices.Keys[use.Index] = vertices.Keys[last];
   this->Slots.Use(vertices.Points[last]).Index = use.Index;
-  vertices.I.pop_back();
-  vertices.J.pop_back();
-  vertices.Points.pop_back();
-  vertices.Keys.pop_back();
-  if (vertices.HasSums())
-  {
-    const std::size_t size = vertices.Sums.size() / (last + 1);
-    std::copy_n(vertices.Sums.data() + last * size, size, vertices.Sums.data() + use.Index * size);
-    vertices.Sums.resize(last * size);
-    this->SumBytes -= BytesPerSum;
-  }
+  this->SumBytes -= vertices.HasSums() ? BytesPerSum : 0;
+  vertices.Remove(use.Index);
   patch.Evaluated = last;
   patch.PointAt.Remove(key);
   this->Slots.RemovePoint(point);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace nurbs
 {
@@ -15,6 +16,8 @@ namespace
 // is under 1e-12 of the largest coordinate (each update rounds by 2^-53 of it, and by a few times 2^-53
 // of what is added).
 constexpr int MostUpdates = 1000;
+constexpr int LengthsEvery =
+  8; // Updates, after which the lengths that normals are judged by are new.
 
 } // namespace
 
@@ -33,10 +36,7 @@ DeformingFace::DeformingFace(const SurfaceView& surface, bool reversed, const Pa
   , Change(surface.Size(), Vec4::Zero())
   , Patches(this->Lines.Patches())
 {
-  for (std::int64_t k = 0; k < surface.Size(); ++k)
-  {
-    this->Control[k] = surface.Homogeneous(k);
-  }
+  this->Remember(surface);
   for (std::int32_t cell = 0; cell < this->Forest.Size(); ++cell)
   {
     this->Fresh.push_back(cell);
@@ -53,6 +53,49 @@ DeformingFace::DeformingFace(const SurfaceView& surface, bool reversed, const Pa
   }
 }
 
+void DeformingFace::Remember(const SurfaceView& surface)
+{
+  const std::int64_t count = surface.Size();
+  this->Places.resize(3 * count);
+  for (std::int64_t k = 0; k < count; ++k)
+  {
+    std::copy_n(surface.Points + 3 * surface.Id(k), 3, this->Places.data() + 3 * k);
+    this->Control[k] = surface.Homogeneous(k);
+  }
+}
+
+// Compares whole blocks of memory where control points lie one after the other, as they mostly do.
+std::int64_t DeformingFace::Compare(const SurfaceView& surface)
+{
+  constexpr std::int64_t block = 64;
+  const std::int64_t count = surface.Size();
+  const std::int64_t first = surface.Id(0);
+  this->MovedPoints.clear();
+  bool even = surface.Id(count - 1) - first == count - 1;
+  for (std::int64_t k = 0; even && surface.Ids && k < count; k += block)
+  {
+    even = surface.Ids[k] - first == k;
+  }
+  for (std::int64_t start = 0; start < count; start += block)
+  {
+    const std::int64_t end = std::min(count, start + block);
+    const bool same = even && !surface.Weights &&
+      std::memcmp(surface.Points + 3 * (first + start), this->Places.data() + 3 * start,
+        3 * (end - start) * sizeof(double)) == 0;
+    for (std::int64_t k = start; k < end && !same; ++k)
+    {
+      const double* x = surface.Points + 3 * surface.Id(k);
+      const double* last = this->Places.data() + 3 * k;
+      if (x[0] != last[0] || x[1] != last[1] || x[2] != last[2] ||
+        surface.Weight(k) != this->Control[k][3])
+      {
+        this->MovedPoints.push_back(std::int32_t(k));
+      }
+    }
+  }
+  return std::int64_t(this->MovedPoints.size());
+}
+
 std::string DeformingFace::Check(
   const SurfaceView& surface, double largestMove, double onePlace) const
 {
@@ -61,19 +104,10 @@ std::string DeformingFace::Check(
     return "control point (" + std::to_string(k % width) + ", " + std::to_string(k / width) +
       "), point " + std::to_string(surface.Id(k)) + ", ";
   };
-  bool moved = false;
-  Box3 box;
-  for (std::int64_t k = 0; k < surface.Size(); ++k)
+  for (const std::int32_t k : this->MovedPoints)
   {
     const Vec3 x = surface.Point(k);
     const double w = surface.Weight(k);
-    box.extend(x);
-    const Vec4& last = this->Control[k];
-    if (w == last[3] && (x * w == Vec3(last.head<3>())))
-    {
-      continue;
-    }
-    moved = true;
     if (!x.allFinite() || !std::isfinite(w))
     {
       return name(k) + "is not finite";
@@ -82,42 +116,24 @@ std::string DeformingFace::Check(
     {
       return name(k) + "has the weight " + std::to_string(w) + ", which must be positive";
     }
-    const double distance = (x - last.head<3>() / last[3]).norm();
+    const double distance =
+      (x - Eigen::Map<const Vec3>(this->Places.data() + 3 * std::int64_t(k))).norm();
     if (distance > largestMove)
     {
       return name(k) + "moved by " + std::to_string(distance) + ", more than " +
         std::to_string(largestMove);
     }
   }
-  const bool collapsed = moved && box.diagonal().norm() <= onePlace;
-  return collapsed ? name(0) + "and all others are in one place" : "";
-}
-
-std::int64_t DeformingFace::Compare(const SurfaceView& surface)
-{
-  for (const std::int32_t k : this->MovedPoints)
+  Box3 box;
+  for (std::int64_t k = 0; !this->MovedPoints.empty() && k < surface.Size(); ++k)
   {
-    this->Change[k].setZero();
-  }
-  this->MovedPoints.clear();
-  for (const int patch : this->Touched)
-  {
-    this->Patches[patch].Touched = false;
-  }
-  this->Touched.clear();
-  this->WeightsMoved = false;
-  const std::int64_t count = surface.Size();
-  for (std::int64_t k = 0; k < count; ++k)
-  {
-    const Vec4 h = surface.Homogeneous(k);
-    if (h != this->Control[k])
+    box.extend(surface.Point(k));
+    if (box.diagonal().squaredNorm() > onePlace * onePlace)
     {
-      this->MovedPoints.push_back(std::int32_t(k));
-      this->Change[k] = h - this->Control[k];
-      this->WeightsMoved = this->WeightsMoved || h[3] != this->Control[k][3];
+      return "";
     }
   }
-  return std::int64_t(this->MovedPoints.size());
+  return this->MovedPoints.empty() ? "" : name(0) + "and all others are in one place";
 }
 
 // The control points that a patch depends on, u fastest.
@@ -152,6 +168,11 @@ BezierNet& DeformingFace::NetOf(int index)
 // The local support of every control point that moved.
 void DeformingFace::MarkPatches()
 {
+  for (const int patch : this->Touched)
+  {
+    this->Patches[patch].Touched = false;
+  }
+  this->Touched.clear();
   for (const std::int32_t k : this->MovedPoints)
   {
     const int at[2] = { int(k % this->Surface.Count[0]), int(k / this->Surface.Count[0]) };
@@ -201,10 +222,15 @@ void DeformingFace::SumMove(int index, SecondBound& second, Vec2& first)
 
 std::int64_t DeformingFace::Move(const SurfaceView& surface)
 {
+  this->WeightsMoved = false;
+  for (const std::int32_t k : this->MovedPoints)
+  {
+    this->Change[k] = surface.Homogeneous(k) - this->Control[k];
+    this->WeightsMoved = this->WeightsMoved || this->Change[k][3] != 0.0;
+  }
   this->MarkPatches();
   SecondBound second;
   Vec2 first = Vec2::Zero();
-  std::int64_t updated = 0;
   for (std::size_t k = 0; k < this->Touched.size() && this->Options.Refine; ++k)
   {
     this->SumMove(this->Touched[k], second, first);
@@ -217,11 +243,17 @@ std::int64_t DeformingFace::Move(const SurfaceView& surface)
   for (const std::int32_t k : this->MovedPoints)
   {
     this->Control[k] = surface.Homogeneous(k);
+    std::copy_n(surface.Points + 3 * surface.Id(k), 3, this->Places.data() + 3 * std::int64_t(k));
   }
+  std::int64_t updated = 0;
   for (const int patch : this->Touched)
   {
     this->Patches[patch].HasNet = false;
     updated += this->MovePatch(patch);
+  }
+  for (const std::int32_t k : this->MovedPoints)
+  {
+    this->Change[k].setZero();
   }
   return updated + this->MoveLoopVertices();
 }
@@ -256,10 +288,13 @@ std::int64_t DeformingFace::MovePatch(int index)
     update.Net = change.data();
     update.FirstRow = first;
     update.LastRow = last;
-    ++vertices.Updates;
+    const bool now = vertices.Updates++ % LengthsEvery == 0;
     thread_local std::vector<Vec4> control;
-    this->Gather(index, this->Control, control);
-    this->UpdatePatch(index, update, 0, control.data());
+    if (now)
+    {
+      this->Gather(index, this->Control, control);
+    }
+    this->UpdatePatch(index, update, 0, now ? control.data() : nullptr);
     return std::int64_t(vertices.Size());
   }
   const std::int64_t bytes = std::int64_t(vertices.Size()) * BytesPerSum;
@@ -290,7 +325,12 @@ void DeformingFace::UpdatePatch(
   update.Patch = index;
   update.Rational = this->Rational;
   update.Reversed = this->Reversed;
-  ShortestDerivatives(this->Lines, index, this->Rational, control, update.Shortest);
+  double(&shortest)[2] = this->Patches[index].Shortest;
+  if (control)
+  {
+    ShortestDerivatives(this->Lines, index, this->Rational, control, shortest);
+  }
+  std::copy_n(shortest, 2, update.Shortest);
   MeshArrays& mesh = this->Slots.Arrays();
   for (const std::int32_t k : UpdateVertices(update, vertices, begin, mesh.Points, mesh.Normals))
   {

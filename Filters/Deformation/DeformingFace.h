@@ -78,12 +78,12 @@ public:
 
   // A frame, in this order.
 
-  /// Why the control points can't be used, with the point's number; "" if they can.
+  /// Compares the control points with those of the last frame. Returns how many have moved.
+  std::int64_t Compare(const SurfaceView& surface);
+  /// Why those that moved can't be used, with the point's number; "" if they can.
   /// @param largestMove of a control point.
   /// @param onePlace extent of control points that are all in one place.
   std::string Check(const SurfaceView& surface, double largestMove, double onePlace) const;
-  /// Compares the control points with those of the last frame. Returns how many have moved.
-  std::int64_t Compare(const SurfaceView& surface);
   /// True if the last Compare found any.
   bool HasMoved() const { return !this->MovedPoints.empty(); }
   /// Takes the new control points and updates all vertices that depend on those that moved; returns
@@ -179,15 +179,17 @@ private:
     double Error = 0.0;      ///< Bound of its cells'.
     std::int64_t Capped = 0; ///< Cells that err by more and are as small as cells become.
     BezierNet Net;
-    bool HasNet = false;       ///< Net is that of the present control points.
-    bool Touched = false;      ///< By the last move.
-    bool Recheck = true;       ///< Nothing is known of its cells' errors.
-    std::size_t Evaluated = 0; ///< Vertices from here on are new.
+    double Shortest[2] = { 0.0, 0.0 }; ///< See ShortestDerivatives.
+    bool HasNet = false;               ///< Net is that of the present control points.
+    bool Touched = false;              ///< By the last move.
+    bool Recheck = true;               ///< Nothing is known of its cells' errors.
+    std::size_t Evaluated = 0;         ///< Vertices from here on are new.
   };
 
   // DeformingFace.cxx: control points and vertices.
   void Gather(int patch, const std::vector<Vec4>& from, std::vector<Vec4>& net) const;
   BezierNet& NetOf(int patch);
+  void Remember(const SurfaceView& surface);
   void MarkPatches();
   void SumMove(int patch, SecondBound& second, Vec2& first);
   std::int64_t MovePatch(int patch);
@@ -281,7 +283,8 @@ private:
   FaceGrid Lines;
   CellForest Forest;
   bool Rational = false;
-  std::vector<Vec4> Control, Change; ///< Homogeneous; the last move.
+  std::vector<double> Places;        ///< Control points, as they were given last.
+  std::vector<Vec4> Control, Change; ///< Homogeneous; what a move changes.
   std::vector<std::int32_t> MovedPoints;
   std::vector<int> Touched; ///< Patches.
   bool WeightsMoved = false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nurbs
 {
@@ -45,17 +46,13 @@ double DeformingModel::Scale(const Viewer* viewer, const Vec3& place) const
 
 void DeformingModel::Adapt(const Viewer* viewer, bool everything, double hysteresis)
 {
-  this->Options.Parallel(
-    0, std::int64_t(this->Faces.size()), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t f = begin; f < end; ++f)
-      {
-        if (this->Faces[f] && (everything || this->FaceTouched[f]))
-        {
-          this->Faces[f]->Adapt(
-            [&](const Vec3& place) { return this->Scale(viewer, place); }, everything, hysteresis);
-        }
-      }
-    });
+  this->ForFaces([&](std::int64_t f) {
+    if (everything || this->FaceTouched[f])
+    {
+      this->Faces[f]->Adapt(
+        [&](const Vec3& place) { return this->Scale(viewer, place); }, everything, hysteresis);
+    }
+  });
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     if (this->Faces[f] && this->Faces[f]->HasNewCells())
@@ -166,7 +163,7 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
 // Edges, cells and triangles, until the zones are within the tolerance, too.
 void DeformingModel::Rebuild(const Viewer* viewer)
 {
-  const bool refine = this->Options.Refine && this->Options.FixedDepth < 0;
+  const bool refine = this->Refines();
   for (int round = 0; round < MaximumRounds; ++round)
   {
     this->UpdateEdges(viewer, refine && round == 0);
@@ -271,15 +268,14 @@ std::string DeformingModel::Check(const Model& model) const
 {
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
-    if (!this->Faces[f])
+    if (this->Faces[f])
     {
-      continue;
-    }
-    const std::string problem = this->Faces[f]->Check(
-      model.Faces[f].Geometry, this->Options.LargestMove * this->Size, OnePlace * this->Size);
-    if (!problem.empty())
-    {
-      return "face " + std::to_string(model.Faces[f].FaceId) + ": " + problem;
+      const std::string problem = this->Faces[f]->Check(
+        model.Faces[f].Geometry, this->Options.LargestMove * this->Size, OnePlace * this->Size);
+      if (!problem.empty())
+      {
+        return "face " + std::to_string(model.Faces[f].FaceId) + ": " + problem;
+      }
     }
   }
   return "";
@@ -294,41 +290,37 @@ bool DeformingModel::HasOpenPole(const Model& model) const
     });
 }
 
+void DeformingModel::ForFaces(const std::function<void(std::int64_t)>& f)
+{
+  this->Options.Parallel(
+    0, std::int64_t(this->Faces.size()), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        if (this->Faces[k])
+        {
+          f(k);
+        }
+      }
+    });
+}
+
 FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
 {
-  const FrameReport last = this->Report;
-  this->Report = FrameReport();
   Stopwatch watch;
   std::vector<std::int64_t> moved(this->Faces.size(), 0);
-  this->Report.Problem = this->Check(model);
-  if (!this->Report.Problem.empty())
+  this->ForFaces(
+    [&](std::int64_t f) { moved[f] = this->Faces[f]->Compare(model.Faces[f].Geometry); });
+  const std::string problem = this->Check(model);
+  const bool open = problem.empty() && this->HasOpenPole(model);
+  if (open || !problem.empty())
   {
-    const std::string problem = this->Report.Problem;
-    this->Report = last;
-    this->Report.Accepted = false;
-    this->Report.Problem = problem;
-    return this->Report;
+    FrameReport refused = this->Report;
+    refused.Accepted = false;
+    refused.Problem = problem;
+    refused.NeedsReplacement = open;
+    return refused;
   }
-  if (this->HasOpenPole(model))
-  {
-    this->Report = last;
-    this->Report.Accepted = false;
-    this->Report.NeedsReplacement = true;
-    return this->Report;
-  }
-  const auto forFaces = [&](const std::function<void(std::int64_t)>& f) {
-    this->Options.Parallel(
-      0, std::int64_t(this->Faces.size()), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k)
-        {
-          if (this->Faces[k])
-          {
-            f(k);
-          }
-        }
-      });
-  };
-  forFaces([&](std::int64_t f) { moved[f] = this->Faces[f]->Compare(model.Faces[f].Geometry); });
+  this->Report = FrameReport();
   this->Report.CompareSeconds = watch.Lap();
   this->Slots.ClearChanges();
   std::vector<std::int64_t> updated(this->Faces.size(), 0);
@@ -338,14 +330,12 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
     this->Data.Data.Faces[f].Geometry = model.Faces[f].Geometry;
     this->Report.MovedControlPoints += moved[f];
   }
-  forFaces([&](std::int64_t f) { updated[f] = this->Faces[f]->Move(model.Faces[f].Geometry); });
-  for (const std::int64_t count : updated)
-  {
-    this->Report.UpdatedVertices += count;
-  }
+  this->ForFaces(
+    [&](std::int64_t f) { updated[f] = this->Faces[f]->Move(model.Faces[f].Geometry); });
+  this->Report.UpdatedVertices = std::accumulate(updated.begin(), updated.end(), std::int64_t(0));
   this->Share(false);
   this->Report.MoveSeconds = watch.Lap();
-  if (this->Options.Refine && this->Options.FixedDepth < 0)
+  if (this->Refines())
   {
     const bool everything = viewer != nullptr || this->HadViewer || this->Coarsening > 1.0;
     this->HadViewer = viewer != nullptr;
@@ -400,6 +390,25 @@ void DeformingModel::KeepBudget(const Viewer* viewer)
   }
 }
 
+// The largest errors of all faces, those that nothing happened to as they were.
+void DeformingModel::SumErrors()
+{
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  {
+    if (this->Faces[f] && this->FaceTouched[f] && (this->Refines() || this->Making))
+    {
+      this->FaceError[f] = this->Faces[f]->ErrorBound();
+      this->FaceCapped[f] = this->Faces[f]->CappedCells();
+    }
+    this->Report.ErrorBound = std::max(this->Report.ErrorBound, this->FaceError[f]);
+    this->Report.CappedCells += this->FaceCapped[f];
+  }
+  for (const std::unique_ptr<DeformingEdge>& edge : this->Edges)
+  {
+    this->Report.ErrorBound = std::max(this->Report.ErrorBound, edge ? edge->Error() : 0.0);
+  }
+}
+
 void DeformingModel::Finish()
 {
   this->Slots.FillGaps();
@@ -425,41 +434,31 @@ void DeformingModel::Finish()
   this->Report.ModelGap =
     this->GapAt.empty() ? 0.0 : *std::max_element(this->GapAt.begin(), this->GapAt.end());
   this->Report.ToleranceUsed = this->Coarsening * this->Options.Tolerance;
-  for (const std::unique_ptr<DeformingFace>& face : this->Faces)
-  {
-    if (face)
-    {
-      this->Report.ErrorBound = std::max(this->Report.ErrorBound, face->ErrorBound());
-      this->Report.CappedCells += face->CappedCells();
-    }
-  }
-  for (const std::unique_ptr<DeformingEdge>& edge : this->Edges)
-  {
-    this->Report.ErrorBound = std::max(this->Report.ErrorBound, edge ? edge->Error() : 0.0);
-  }
+  this->SumErrors();
+  this->Making = false;
   this->Report.ErrorBound += this->Report.ModelGap;
-  this->MarkChanges();
 }
 
-void DeformingModel::MarkChanges()
+std::vector<unsigned char> DeformingModel::ChangedPoints() const
 {
   const MeshSlots::Changes& changes = this->Slots.GetChanges();
   const std::size_t count = std::size_t(this->Slots.Arrays().PointCount);
-  this->Changed.assign(count, changes.Renumbered ? 1 : 0);
+  std::vector<unsigned char> changed(count, changes.Renumbered ? 1 : 0);
   for (const std::int32_t point : changes.Added)
   {
     if (std::size_t(point) < count)
     {
-      this->Changed[point] = 1;
+      changed[point] = 1;
     }
   }
   for (const std::unique_ptr<DeformingFace>& face : this->Faces)
   {
     if (face && face->HasMoved())
     {
-      face->ForMoved([&](std::int32_t point) { this->Changed[point] = 1; });
+      face->ForMoved([&](std::int32_t point) { changed[point] = 1; });
     }
   }
+  return changed;
 }
 
 std::int64_t DeformingModel::BytesOfSums() const

@@ -82,7 +82,7 @@ public:
   /// What the constructor (or Replace) did.
   const FrameReport& FirstFrame() const { return this->Report; }
   /// True for points that the last frame moved or added; one a point of the mesh.
-  const std::vector<unsigned char>& ChangedPoints() const { return this->Changed; }
+  std::vector<unsigned char> ChangedPoints() const;
   std::int64_t BytesOfSums() const;
   const DeformingFace* GetFace(std::int64_t face) const { return this->Faces[face].get(); }
 
@@ -108,8 +108,10 @@ private:
   bool IsTouched(const DeformingEdge& edge) const;
   bool Honour(const RefinementRequests& requests);
   void Share(bool measure);
-  void MarkChanges();
+  void ForFaces(const std::function<void(std::int64_t)>& f);
+  void SumErrors();
   void Finish();
+  bool Refines() const { return this->Options.Refine && this->Options.FixedDepth < 0; }
   double Scale(const Viewer* viewer, const Vec3& place) const;
 
   DeformingOptions Options;
@@ -126,9 +128,11 @@ private:
   double BytesOfControl = 0.0; ///< A control point's share of MemoryLimit.
   double Size = 0.0;           ///< Of the first frame's control points.
   bool HadViewer = false;
+  bool Making = true;        ///< The frame makes cells, even if others do not.
   std::vector<double> GapAt; ///< Of vertices, then of edges: distance of the faces there.
   FrameReport Report;
-  std::vector<unsigned char> Changed;
+  std::vector<double> FaceError;
+  std::vector<std::int64_t> FaceCapped;
 };
 
 } // namespace nurbs

@@ -44,6 +44,8 @@ DeformingModel::DeformingModel(const Model& model, const std::vector<std::string
   const Model& all = this->Data.Data;
   this->Measure(faceErrors);
   this->Faces.resize(all.Faces.size());
+  this->FaceError.assign(all.Faces.size(), 0.0);
+  this->FaceCapped.assign(all.Faces.size(), 0);
   this->Edges.resize(all.Edges.size());
   this->EdgesOf.resize(all.Faces.size());
   this->CornerOf.assign(all.TrimCurves.size(), -1);
@@ -268,6 +270,7 @@ bool DeformingModel::Replace(
       corners.end());
   }
   this->Data = std::move(next);
+  this->Making = true;
   std::copy(changed.begin(), changed.end(), this->FaceTouched.begin());
   this->MakeFaces(changed, faceErrors);
   this->Adapt(nullptr, true, this->Options.Hysteresis);

@@ -93,6 +93,7 @@ public:
     return this->TriangleEnd - std::int64_t(this->FreeTriangles.size());
   }
   MeshArrays& Arrays() { return this->Data; }
+  const MeshArrays& Arrays() const { return this->Data; }
   Eigen::Map<Vec3> Point(std::int32_t point)
   {
     return Eigen::Map<Vec3>(this->Data.Points + 3 * std::int64_t(point));

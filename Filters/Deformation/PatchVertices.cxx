@@ -16,7 +16,7 @@ constexpr int SumSize = 12; // H, H_u, H_v.
 // derivative, 8 numbers a row.
 struct LineSums
 {
-  std::vector<char> Needed;
+  std::vector<std::int32_t> Needed; ///< Not 0.
   std::vector<double> Values;
 };
 
@@ -203,6 +203,35 @@ void RunWide(const Loop& loop, LineSums& lines, int column)
 
 } // namespace
 
+void PatchVertices::Add(std::int32_t i, std::int32_t j, std::int32_t point, std::uint64_t key)
+{
+  this->I.push_back(i);
+  this->J.push_back(j);
+  this->Points.push_back(point);
+  this->Keys.push_back(key);
+  this->LineUses.resize(std::max(this->LineUses.size(), std::size_t(i) + 1), 0);
+  ++this->LineUses[i];
+}
+
+void PatchVertices::Remove(std::size_t index)
+{
+  const std::size_t last = this->Size() - 1;
+  --this->LineUses[this->I[index]];
+  this->I[index] = this->I[last];
+  this->J[index] = this->J[last];
+  this->Points[index] = this->Points[last];
+  this->Keys[index] = this->Keys[last];
+  this->I.pop_back();
+  this->J.pop_back();
+  this->Points.pop_back();
+  this->Keys.pop_back();
+  if (this->HasSums())
+  {
+    std::copy_n(this->Sums.data() + last * SumSize, SumSize, this->Sums.data() + index * SumSize);
+    this->Sums.resize(last * SumSize);
+  }
+}
+
 std::vector<std::int32_t> UpdateVertices(const PatchUpdate& update, PatchVertices& vertices,
   std::size_t begin, double* points, float* normals)
 {
@@ -210,11 +239,7 @@ std::vector<std::int32_t> UpdateVertices(const PatchUpdate& update, PatchVertice
   const int column = update.Grid->Column(update.Patch);
   const int rows = update.LastRow - update.FirstRow + 1;
   thread_local LineSums lines; // Kept for its memory.
-  lines.Needed.assign(update.Grid->Axis[0].Lines(column), 0);
-  for (std::size_t k = begin; k < vertices.Size(); ++k)
-  {
-    lines.Needed[vertices.I[k]] = 1;
-  }
+  lines.Needed.assign(vertices.LineUses.begin(), vertices.LineUses.end());
   lines.Values.resize(lines.Needed.size() * rows * 8);
   if (update.Keep && !update.Accumulate)
   {

@@ -16,12 +16,16 @@ namespace nurbs
 /// A patch's vertices.
 struct PatchVertices
 {
-  std::vector<std::int32_t> I, J;   ///< Lines of the patch's column and row.
-  std::vector<std::int32_t> Points; ///< Where they are in the mesh.
-  std::vector<std::uint64_t> Keys;  ///< Their lines' coordinates, u's in the upper half.
-  std::vector<double> Sums;         ///< H, H_u, H_v of each, 12 numbers; or nothing.
-  int Updates = 0;                  ///< Since Sums were evaluated.
+  std::vector<std::int32_t> I, J;     ///< Lines of the patch's column and row.
+  std::vector<std::int32_t> LineUses; ///< How many vertices are on each line of I.
+  std::vector<std::int32_t> Points;   ///< Where they are in the mesh.
+  std::vector<std::uint64_t> Keys;    ///< Their lines' coordinates, u's in the upper half.
+  std::vector<double> Sums;           ///< H, H_u, H_v of each, 12 numbers; or nothing.
+  int Updates = 0;                    ///< Since Sums were evaluated.
 
+  void Add(std::int32_t i, std::int32_t j, std::int32_t point, std::uint64_t key);
+  /// Removes a vertex; the last one takes its place.
+  void Remove(std::size_t index);
   std::size_t Size() const { return this->Points.size(); }
   bool HasSums() const { return !this->Sums.empty(); }
 };

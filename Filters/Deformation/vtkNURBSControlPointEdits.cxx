@@ -365,7 +365,7 @@ void vtkNURBSControlPointEdits::ResetControlPoints()
 
 vtkIdType vtkNURBSControlPointEdits::GetNumberOfEdits()
 {
-  return vtkIdType(this->Internals->History.Size() + this->Internals->Waiting.size());
+  return vtkIdType(this->Internals->History.Size()) + vtkIdType(this->Internals->Waiting.size());
 }
 
 bool vtkNURBSControlPointEdits::GetBlockControlPoint(

@@ -10,7 +10,8 @@
  * and exactly where the lattice is moved by an affine map. A plane of 2 x 2 control points does not
  * bend at all. Hence faces stay together exactly where their coinciding sides have the same control
  * points (the teapot); others of a bent solid part at their common edge by as much as their nets
- * are too coarse, which a tessellator closes and tells of (capped faces).
+ * are too coarse, which a tessellator closes and tells of (capped faces). vtkNURBSRefinement before
+ * this filter makes nets denser: the gap falls with the square of their spacing.
  *
  * Input 0: a model of vtkNURBSModel (any vtkUnstructuredGrid is deformed the same way), or a
  * composite data set of models: one lattice is around all of them; other blocks are passed on as

@@ -73,7 +73,15 @@ vtkNURBSControlPointWidget::vtkNURBSControlPointWidget()
     [](vtkAbstractWidget* w) { Self::ConstrainAction(w, Representation::SURFACE_NORMAL); });
 }
 
-vtkNURBSControlPointWidget::~vtkNURBSControlPointWidget() = default;
+// In the middle of a drag, the interactor must not wait for this widget for ever.
+vtkNURBSControlPointWidget::~vtkNURBSControlPointWidget()
+{
+  if (this->State != Idle)
+  {
+    this->GetControlPointRepresentation()->CancelInteraction();
+    this->ReleaseFocus();
+  }
+}
 
 void vtkNURBSControlPointWidget::CreateDefaultRepresentation()
 {

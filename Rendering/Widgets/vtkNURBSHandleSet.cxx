@@ -35,7 +35,7 @@ std::vector<vtkNURBSHandleSet::Model> vtkNURBSHandleSet::FindModels(vtkDataObjec
   std::vector<Model> models;
   const auto add = [&](vtkDataObject* leaf, unsigned int block) {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
-    if (!grid || grid->GetNumberOfPoints() == 0 || !vtkNURBSModel::IsModel(grid))
+    if (!grid || grid->GetNumberOfCells() == 0 || !vtkNURBSModel::IsModel(grid))
     {
       return;
     }

@@ -3,6 +3,7 @@
 /// @brief Milliseconds a frame of a surface of which one control point moves, by every method of
 /// DeformationRivals.h. Prints JSON; see --help. One thread.
 #include "DeformationRivals.h"
+#include "IncrementalRival.h"
 #include "Measuring.h"
 #include "MemoryBandwidth.h"
 #include "OcctDeformationRival.h"
@@ -20,11 +21,13 @@ using namespace nurbs;
 namespace
 {
 
+constexpr double FastShare = 0.02; // Of the polygons, as in the paper's section 6.
+
 struct Arguments
 {
   int Degree = 3;
-  int Spans = 35;
-  int Cells = 9;
+  int Spans = 39;
+  int Cells = 8;
   bool Polynomial = false;
   bool WithoutOcct = false;
   int Rounds = 5;
@@ -67,13 +70,14 @@ struct Contestant
   double Prepared = 0.0;  ///< Seconds.
   double Best = 1e300;    ///< Seconds a frame.
   std::int64_t Frame = 0; ///< Frames so far.
+  double Reach = 1.0;     ///< Of the control point's way.
 };
 
 /// The middle control point goes round in circles, and up and down.
-Vec3 Position(const Surface& start, std::int64_t index, std::int64_t frame)
+Vec3 Position(const Surface& start, std::int64_t index, double reach, std::int64_t frame)
 {
   const double angle = 0.1 * double(frame);
-  const double step = 1.0 / start.Count[0];
+  const double step = reach / start.Count[0];
   return start.Points[std::size_t(index)] +
     step * Vec3(0.3 * std::sin(angle), 0.3 * std::cos(angle), std::sin(0.7 * angle));
 }
@@ -94,12 +98,36 @@ void RunFrames(Contestant& c, const Surface& start, double seconds)
     const measuring::Stopwatch stopwatch;
     for (std::int64_t i = 0; i < batch; ++i)
     {
-      c.Rival->Move(index, Position(start, index, ++c.Frame));
+      c.Rival->Move(index, Position(start, index, c.Reach, ++c.Frame));
     }
     const double taken = stopwatch.Read().Processor;
     total += taken;
     c.Best = std::min(c.Best, taken / double(batch));
     batch = 1 + std::int64_t(1e-3 / c.Best);
+  }
+}
+
+/// The share of the polygons that changes in a frame: two with every vertex that comes or goes.
+double ChangedPolygons(Contestant& c, const Surface& start)
+{
+  auto& rival = dynamic_cast<IncrementalRival&>(*c.Rival);
+  constexpr int frames = 40;
+  std::int64_t changed = 0;
+  for (int k = 0; k < frames; ++k)
+  {
+    const std::int64_t index = MovedPoint(start);
+    rival.Move(index, Position(start, index, c.Reach, ++c.Frame));
+    changed += 2 * (rival.GetReport().InsertedVertices + rival.GetReport().DeletedVertices);
+  }
+  return double(changed) / frames / double(rival.Triangles());
+}
+
+/// A way as long as changes that share of the polygons a frame.
+void Lengthen(Contestant& c, const Surface& start, double share)
+{
+  for (int k = 0; k < 40 && ChangedPolygons(c, start) < share; ++k)
+  {
+    c.Reach *= 1.25;
   }
 }
 
@@ -148,6 +176,9 @@ std::vector<Contestant> Contestants(const Arguments& a)
   {
     add("occt", std::make_unique<OcctDeformationRival>());
   }
+  add("refined", std::make_unique<IncrementalRival>(true));
+  add("refined_far", std::make_unique<IncrementalRival>(true));
+  add("increments", std::make_unique<IncrementalRival>(false));
   add("full", MakeGridRival());
   add("local", MakeLocalGridRival());
   return all;
@@ -171,6 +202,10 @@ nlohmann::json Run(const Arguments& a)
     const measuring::Stopwatch stopwatch;
     c.Rival->Prepare(sheet, grid);
     c.Prepared = stopwatch.Read().Processor;
+    if (c.Key == "refined_far")
+    {
+      Lengthen(c, sheet, FastShare);
+    }
   }
   // In turns, so that what else the machine does hits all of them.
   for (int round = 0; round < a.Rounds; ++round)
@@ -185,7 +220,7 @@ nlohmann::json Run(const Arguments& a)
   }
   nlohmann::json result = { { "spans", a.Spans }, { "rational", !a.Polynomial },
     { "vertices", grid.Count() }, { "touched", touched } };
-  for (const Contestant& c : all)
+  for (Contestant& c : all)
   {
     const DeformationMesh& mesh = c.Rival->GetMesh();
     nlohmann::json row = { { "name", c.Rival->GetName() }, { "prepare", c.Prepared },
@@ -195,6 +230,12 @@ nlohmann::json Run(const Arguments& a)
     if (const auto* occt = dynamic_cast<const OcctDeformationRival*>(c.Rival.get()))
     {
       row["deflection"] = occt->GetDeflection();
+    }
+    if (const auto* ours = dynamic_cast<const IncrementalRival*>(c.Rival.get()))
+    {
+      row["changed"] = ChangedPolygons(c, sheet);
+      row["moved"] = ours->GetReport().UpdatedVertices;
+      row["reach"] = c.Reach;
     }
     result["rivals"][c.Key] = row;
   }
@@ -220,9 +261,9 @@ int main(int argc, char** argv)
   app.add_option("--spans", a.Spans, "Knot spans a direction")
     ->capture_default_str()
     ->check(CLI::Range(1, 5000));
-  app.add_option("--cells", a.Cells, "Cells of the mesh a span and direction")
+  app.add_option("--cells", a.Cells, "Cells of the mesh a span and direction: a power of two")
     ->capture_default_str()
-    ->check(CLI::Range(1, 1000));
+    ->check(CLI::IsMember({ 1, 2, 4, 8, 16, 32, 64 }));
   app.add_flag("--polynomial", a.Polynomial, "No weights");
   app.add_flag("--without-occt", a.WithoutOcct, "Leave OpenCASCADE out");
   app.add_option("--rounds", a.Rounds, "Rounds; what takes over 10 s a frame has one")

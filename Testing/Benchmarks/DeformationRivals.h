@@ -60,7 +60,7 @@ public:
   void Move(std::int64_t index, const Vec3& position);
 
   const Surface& GetSurface() const { return this->Deformed; }
-  const DeformationMesh& GetMesh() const { return this->Mesh; }
+  virtual const DeformationMesh& GetMesh() const { return this->Mesh; }
 
 protected:
   /// The whole mesh of Deformed. Prepare has set Grid and, for its vertices, the mesh's size and

@@ -15,14 +15,17 @@ METHODS = {
     "oslo_simple": "(a) Oslo, simple knots",
     "bezier": "(b) Bezier, Horner",
     "bezier_rows": "(b) Bezier, Horner, rows shared",
+    "refined_far": "(c) ours, refined, a long way",
+    "refined": "(c) ours, refined",
+    "increments": "(d) ours",
     "occt": "(e) OpenCASCADE",
     "full": "(e) full evaluation",
     "local": "(f) local evaluation",
 }
-SPANS = 35
-CELLS = (3, 6, 9, 29)
-MAIN = 9  # 316 x 316 vertices
-OCCT_CELLS = 9  # OpenCASCADE takes minutes and over 10 GB for a mesh of more.
+SPANS = 39
+CELLS = (2, 4, 8, 32)
+MAIN = 8  # 313 x 313 vertices
+OCCT_CELLS = 8  # OpenCASCADE takes minutes and over 10 GB for a mesh of more.
 KINDS = {"rational": (), "polynomial": ("--polynomial",)}
 VERTEX = 2 * 6 * 8  # bytes: point and normal, read and written
 
@@ -68,11 +71,12 @@ def main_case(report, kind, result):
             rows.append(
                 [name, 1e3 * row["frame"], 1e9 * row["frame"] / result["touched"],
                  row["frame"] / rivals["full"]["frame"], row["frame"] / rivals["local"]["frame"],
+                 rivals["bezier"]["frame"] / row["frame"], 100 * row.get("changed", 0),
                  row["vertices"], row["triangles"], row["point_error"], row["normal_error"]]
             )  # fmt: skip
     report.table(
         ["method", "ms a frame", "ns a touched vertex", "over full evaluation",
-         "over local evaluation", "vertices", "triangles", "largest distance", "largest angle"],
+         "over local evaluation", "(b) over it", "polygons changed, %", "vertices", "triangles", "largest distance", "largest angle"],
         rows,
     )  # fmt: skip
 

@@ -32,6 +32,7 @@ step pictures.py
 step drawing.py "${fewer[@]}"
 step deformation.py "${fewer[@]}"
 step free_form.py
+step refinement.py
 step ../Peers/compare_with_occt.py --tolerances "$tolerances"
 if [ $quick = no ]; then
   step scale.py

@@ -3,6 +3,8 @@
 #include "vtkWidgetScene.h"
 
 #include "Surface.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkPartitionedDataSetCollection.h"
@@ -428,6 +430,32 @@ TEST(ControlPointWidget, OffIsOff)
   EXPECT_TRUE(scene.Handles()->IsSelected(0, 3));
 }
 
+TEST(ControlPointWidget, DeletedInTheMiddleOfADrag)
+{
+  vtkWidgetScene scene(Sheet());
+  scene.Widget->Off();
+  auto widget = vtkSmartPointer<vtkNURBSControlPointWidget>::New();
+  widget->SetInteractor(scene.Interactor);
+  widget->SetCurrentRenderer(scene.Renderer);
+  widget->SetEdits(scene.Edits);
+  widget->On();
+  scene.Window->Render();
+  const Vec2 start = scene.PixelOf(scene.Before(Middle));
+  scene.Move(start);
+  scene.Press(start);
+  scene.Move(start + Vec2(12, 0));
+  EXPECT_EQ(scene.Edits->GetNumberOfEdits(), 1);
+  widget = nullptr;
+  EXPECT_EQ(scene.Edits->GetNumberOfEdits(), 0) << "an unfinished drag is taken back";
+  scene.Release(start);
+  const Vec3 before(scene.Renderer->GetActiveCamera()->GetPosition());
+  scene.Press(Vec2(2, 2));
+  scene.Move(Vec2(22, 12));
+  scene.Release(Vec2(22, 12));
+  EXPECT_NE(Vec3(scene.Renderer->GetActiveCamera()->GetPosition()), before)
+    << "events go to the others again";
+}
+
 TEST(ControlPointWidget, OneOfTwoRenderers)
 {
   vtkWidgetScene scene(Sheet(), false);
@@ -610,6 +638,13 @@ TEST(ControlPointWidget, WithoutEditsInputRendererOrWindow)
   EXPECT_EQ(alone->GetNumberOfHandles(), 36);
   EXPECT_FALSE(alone->Pick(1, 1)) << "no renderer";
   EXPECT_EQ(alone->GetBounds()[0], edits->GetInputDataObject(0, 0) ? 0.0 : 1.0);
+
+  auto noFaces = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  noFaces->SetPoints(Sheet()->GetPoints());
+  noFaces->GetCellData()->ShallowCopy(Sheet()->GetCellData());
+  noFaces->GetFieldData()->ShallowCopy(Sheet()->GetFieldData());
+  edits->SetInputDataObject(noFaces);
+  EXPECT_EQ(alone->GetNumberOfHandles(), 0) << "points, but no cell";
 
   vtkWidgetScene scene(Sheet());
   scene.Widget->SetEdits(nullptr);

@@ -479,6 +479,30 @@ TEST(Model, EdgesLeftBehindByMovedPointsAreReleased)
   EXPECT_TRUE(nurbs::AssembleModel(builder.Arrays(), options).Problems.empty());
 }
 
+// An odd wave, 3 t (1 - t) (1 - 2 t), leaves both ends and the middle of the edge where they were.
+TEST(Model, EdgesMovedByAWaveAreReleased)
+{
+  for (const double height : { 0.0, 1e-3 })
+  {
+    nurbs::Surface sheet = nurbs::ElevateDegree(Square(0).View(), 0, 1);
+    ASSERT_EQ(sheet.Count[0], 4);
+    sheet.Points[1][2] = height;
+    sheet.Points[2][2] = -height;
+    ASSERT_LE(nurbs::Evaluate(sheet.View(), 0.5, 0.0)[2], 1e-18);
+    ModelBuilder builder;
+    const auto edge = builder.AddEdge(Line(Vec3(0, 0, 0), Vec3(1, 0, 0)).View(), 1e-7, -1, -1);
+    builder.BeginFace(sheet.View(), nurbs::FaceAttributes());
+    builder.BeginLoop();
+    builder.AddTrimCurve(Line(Vec2(0, 0), Vec2(1, 0)).View(), edge, false);
+    builder.AddTrimCurve(Line(Vec2(1, 0), Vec2(1, 1)).View(), -1, false);
+    builder.AddTrimCurve(Line(Vec2(1, 1), Vec2(0, 1)).View(), -1, false);
+    builder.AddTrimCurve(Line(Vec2(0, 1), Vec2(0, 0)).View(), -1, false);
+    const AssembledModel model = nurbs::AssembleModel(builder.Arrays());
+    EXPECT_EQ(model.Problems.size(), height > 0.0 ? 1u : 0u);
+    EXPECT_EQ(model.Model.Edges[edge].Geometry.Count, height > 0.0 ? 0 : 2);
+  }
+}
+
 TEST(Model, PolesMoveWithTheirFace)
 {
   ModelBuilder builder;
