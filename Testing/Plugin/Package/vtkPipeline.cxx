@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A user's program: an exact sphere, tessellated, and at a coarse level of detail.
+// A user's program: an exact sphere, tessellated, at a coarse level of detail, and its silhouette.
 #include <vtkNURBSShapeSource.h>
+#include <vtkNURBSSilhouette.h>
 #include <vtkNURBSTessellator.h>
 #include <vtkNURBSWaveletLOD.h>
 
@@ -22,5 +23,11 @@ int main()
   levels->SetInputConnection(shape->GetOutputPort());
   levels->SetLevel(4);
   levels->Update();
-  return triangles > 0 && levels->GetNumberOfTriangles() > 0 ? 0 : 1;
+  vtkNew<vtkNURBSSilhouette> silhouette;
+  silhouette->SetInputConnection(shape->GetOutputPort());
+  silhouette->Update();
+  return triangles > 0 && levels->GetNumberOfTriangles() > 0 &&
+      silhouette->GetNumberOfComponents() == 1
+    ? 0
+    : 1;
 }

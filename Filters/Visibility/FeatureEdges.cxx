@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FeatureEdges.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs
+{
+
+namespace
+{
+
+constexpr int AngleSamples = 9;
+constexpr int StraightSamples = 15;
+constexpr int FirstParts = 4; // Of a Bezier piece of a trim curve that is not straight.
+constexpr int MaxChordDepth = 30;
+
+ContourPoint Lift(const SurfaceView& surface, const Vec2& uv)
+{
+  ContourPoint out;
+  out.UV = Vec2(surface.Domain(0).Clamp(uv[0]), surface.Domain(1).Clamp(uv[1]));
+  out.Point = Evaluate(surface, out.UV[0], out.UV[1]);
+  return out;
+}
+
+// Outer normal of a use's face where the edge's parameter is t.
+Vec3 NormalAt(const Model& model, const EdgeUse& use, const Interval& domain, double t)
+{
+  const Face& face = model.Faces[use.Face];
+  const TrimCurve& curve = model.TrimCurves[use.Curve];
+  const Vec2 uv = Evaluate(curve.Geometry, TrimParameter(curve, domain, t));
+  const Vec3 n = Normal(
+    face.Geometry, face.Geometry.Domain(0).Clamp(uv[0]), face.Geometry.Domain(1).Clamp(uv[1]));
+  return face.Reversed ? Vec3(-n) : n;
+}
+
+} // namespace
+
+std::vector<std::vector<EdgeUse>> UsesOfEdges(
+  const Model& model, const std::vector<std::string>& faceErrors)
+{
+  std::vector<std::vector<EdgeUse>> uses(model.Edges.size());
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    const Face& face = model.Faces[f];
+    for (std::int64_t l = 0; l < face.LoopCount && faceErrors[f].empty(); ++l)
+    {
+      const TrimLoop& loop = model.Loops[face.FirstLoop + l];
+      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+      {
+        uses[model.TrimCurves[c].Edge].push_back({ std::int64_t(f), c });
+      }
+    }
+  }
+  return uses;
+}
+
+LineKind KindOfEdge(
+  const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses, double featureAngle)
+{
+  if (uses.size() != 2)
+  {
+    return uses.size() < 2 ? LineKind::Boundary : LineKind::Sharp;
+  }
+  // Faces that agree on the outside run through their edge in opposite directions.
+  bool forward[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    forward[k] = model.TrimCurves[uses[k].Curve].Reversed == model.Faces[uses[k].Face].Reversed;
+  }
+  const double flip = forward[0] == forward[1] ? -1.0 : 1.0;
+  const Interval domain = EdgeDomain(model, edge, uses);
+  for (int k = 0; k < AngleSamples; ++k)
+  {
+    const double t = domain.Min + (k + 0.5) / AngleSamples * domain.Length();
+    const Vec3 a = NormalAt(model, uses[0], domain, t);
+    const Vec3 b = flip * NormalAt(model, uses[1], domain, t);
+    if (std::atan2(a.cross(b).norm(), a.dot(b)) > featureAngle)
+    {
+      return LineKind::Sharp;
+    }
+  }
+  return LineKind::Smooth;
+}
+
+std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, double precision)
+{
+  const SurfaceView& surface = model.Faces[use.Face].Geometry;
+  std::vector<ContourPoint> out;
+  for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[use.Curve].Geometry))
+  {
+    const auto at = [&](double t) { return Lift(surface, piece.Evaluate(t)); };
+    ContourPoint a = out.empty() ? at(0.0) : out.back();
+    const ContourPoint end = at(1.0);
+    if (out.empty())
+    {
+      out.push_back(a);
+    }
+    bool straight = true;
+    for (int k = 1; k <= StraightSamples && straight; ++k)
+    {
+      straight = DistanceToSegment(at(double(k) / (StraightSamples + 1)).Point, a.Point,
+                   end.Point) <= 0.9 * precision;
+    }
+    const int parts = straight ? 1 : FirstParts;
+    for (int k = 1; k <= parts; ++k)
+    {
+      const ContourPoint b = k == parts ? end : at(double(k) / parts);
+      if (!straight)
+      {
+        RefineChord(
+          at, precision, double(k - 1) / parts, a, double(k) / parts, b, MaxChordDepth, out);
+      }
+      out.push_back(b);
+      a = b;
+    }
+  }
+  return out;
+}
+
+} // namespace nurbs
