@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nurbs
 {
@@ -17,6 +18,8 @@ constexpr double Straight = 1e-12;            // Of the box: no bend.
 constexpr int ClosedPieces = 4;               // That a closed edge has at least.
 constexpr double ShortestPiece = 1.0 / 65536; // Of the domain.
 constexpr int CreaseSamples = 64;
+constexpr double ForcedShare =
+  0.25;                           // Of the error that a piece was halved at for a face: to merge.
 constexpr double OnePoint = 1e-9; // Of the control net: a pole.
 
 } // namespace
@@ -273,14 +276,16 @@ void DeformingEdge::Split(const Model& model, std::int32_t index)
   this->PiecesChanged = true;
 }
 
-bool DeformingEdge::Force(const Model& model, std::int32_t index)
+bool DeformingEdge::Force(const Model& model, const Faces& faces, std::int32_t index)
 {
   Piece& piece = this->Pieces[index];
   if (piece.Child >= 0 || piece.Free || piece.T1 - piece.T0 < ShortestPiece * this->Domain.Length())
   {
     return false;
   }
-  piece.Forced = true;
+  double error = 0.0;
+  this->Errs(faces, piece, 0.0, true, error);
+  piece.ForcedAt = std::max(error, std::numeric_limits<double>::min());
   this->Split(model, index);
   return true;
 }
@@ -339,11 +344,13 @@ void DeformingEdge::AdaptPiece(
     return;
   }
   Piece& piece = this->Pieces[index];
-  const double limit = hysteresis * tolerance * (piece.Forced ? 0.25 : 1.0);
+  const double limit = piece.ForcedAt > 0.0
+    ? std::min(hysteresis * tolerance, ForcedShare * piece.ForcedAt)
+    : hysteresis * tolerance;
   if (!this->Errs(faces, piece, limit, false, error))
   {
     piece.Child = -1;
-    piece.Forced = false;
+    piece.ForcedAt = 0.0;
     this->Pieces[child].Free = this->Pieces[child + 1].Free = true;
     this->FreePairs.push_back(child);
     this->PiecesChanged = true;

@@ -151,7 +151,7 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
   bool any = false;
   for (const std::pair<std::int32_t, std::int32_t>& piece : requests.Pieces)
   {
-    if (this->Edges[piece.first]->Force(this->Data.Data, piece.second))
+    if (this->Edges[piece.first]->Force(this->Data.Data, this->Faces, piece.second))
     {
       this->EdgeChanged[piece.first] = 1;
       any = true;
