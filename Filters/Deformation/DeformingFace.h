@@ -54,6 +54,8 @@ struct RefinementRequests
 {
   std::vector<CellRequest> Cells;
   std::vector<std::pair<std::int32_t, std::int32_t>> Pieces; ///< Edge, its piece.
+  /// Likewise, of loops that cross.
+  std::vector<std::pair<std::int32_t, std::int32_t>> Crossing;
 };
 
 /// How a face follows.
@@ -61,9 +63,9 @@ struct FaceOptions
 {
   double Tolerance = 0.0;
   bool Refine = true;
-  int FixedDepth = -1;          ///< >= 0: every patch is halved so often in u and in v.
+  int FixedDepth = -1;                  ///< >= 0: every patch is halved so often in u and in v.
   std::int64_t MaximumLeaves = 1000000; ///< Cells; beyond, they are not halved.
-  bool KeepCoefficients = true; ///< Of loop vertices.
+  bool KeepCoefficients = true;         ///< Of loop vertices.
   std::int64_t MaximumSums = 0; ///< Bytes for H, H_u, H_v; beyond, vertices are evaluated afresh.
 };
 
@@ -319,6 +321,7 @@ private:
   std::vector<double>
     Coefficients; ///< Of loop vertices, as many as in the basis of both directions.
   std::vector<std::vector<LoopSegment>> Loops;
+  std::vector<const LoopSegment*> SegmentFrom; ///< That starts at a loop vertex; null: none.
   struct SideSegment
   {
     double Start = 0.0;     ///< Parameter along the side.

@@ -267,8 +267,8 @@ bool DeformingFace::IsInZone(const Vec2& place, int d) const
     this->Lines.Axis[1].LineBelow(place[1]) };
   for (int side = 0; side < 2; ++side)
   {
-    const std::int32_t leaf = this->Forest.LeafAt(
-      line[0] - (d == 0 ? side : 0), line[1] - (d == 1 ? side : 0));
+    const std::int32_t leaf =
+      this->Forest.LeafAt(line[0] - (d == 0 ? side : 0), line[1] - (d == 1 ? side : 0));
     if (leaf < 0 || this->Forest[leaf].State != CellState::Cut)
     {
       return false;
@@ -452,7 +452,7 @@ void DeformingFace::RequestLoops(RefinementRequests& requests) const
     {
       if (s.Piece >= 0)
       {
-        requests.Pieces.emplace_back(s.Edge, s.Piece);
+        requests.Crossing.emplace_back(s.Edge, s.Piece);
       }
     }
   }
@@ -461,18 +461,14 @@ void DeformingFace::RequestLoops(RefinementRequests& requests) const
 // The loop's piece between two of its vertices, if they are neighbours.
 bool DeformingFace::RequestPiece(std::int32_t a, std::int32_t b, RefinementRequests& requests) const
 {
-  const std::int32_t index = this->Slots.Use(a).Index;
-  for (const std::vector<LoopSegment>& loop : this->Loops)
+  const std::int32_t vertex[2] = { this->Slots.Use(a).Index, this->Slots.Use(b).Index };
+  for (int k = 0; k < 2; ++k)
   {
-    for (const LoopSegment& s : loop)
+    const LoopSegment* s = this->SegmentFrom[vertex[k]];
+    if (s && s->B == vertex[1 - k] && s->Piece >= 0)
     {
-      const bool beside = s.Piece >= 0 && (s.A == index || s.B == index);
-      const std::int32_t other = this->LoopVertices[s.A == index ? s.B : s.A].Point;
-      if (beside && other == b)
-      {
-        requests.Pieces.emplace_back(s.Edge, s.Piece);
-        return true;
-      }
+      requests.Pieces.emplace_back(s->Edge, s->Piece);
+      return true;
     }
   }
   return false;
