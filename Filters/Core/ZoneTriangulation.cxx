@@ -109,7 +109,10 @@ ZoneTriangles TriangulateZone(const Zone& zone)
   }
   for (const std::array<int, 2>& line : zone.Lines)
   {
-    mesh.insert_constraint(vertices[line[0]], vertices[line[1]]);
+    if (vertices[line[0]] != vertices[line[1]])
+    {
+      mesh.insert_constraint(vertices[line[0]], vertices[line[1]]);
+    }
   }
   // How many walls go along an edge; 0: lines only. Edges of walls that cross others are not found.
   std::map<std::pair<Vertex, Vertex>, int> along;
