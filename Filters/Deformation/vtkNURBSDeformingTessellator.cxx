@@ -515,8 +515,16 @@ int vtkNURBSDeformingTessellator::RequestData(
   }
   this->FindNewLeaves(frame);
   this->SetDiagonal(frame);
-  for (std::size_t k = 0; k < frame.Blocks.size() && !this->GetAbortExecute(); ++k)
+  for (std::size_t k = 0; k < frame.Blocks.size(); ++k)
   {
+    if (this->GetAbortExecute())
+    {
+      if (this->Leaves[k])
+      {
+        this->Leaves[k]->Output.Rest(this->Leaves[k]->Report, this->ChangedMask != 0);
+      }
+      continue;
+    }
     this->UpdateLeaf(frame, k);
     this->UpdateProgress(double(k + 1) / double(frame.Blocks.size()));
   }

@@ -57,6 +57,15 @@ vtkSmartPointer<vtkDataArray> AsDoubles(vtkDataArray* array)
   return doubles;
 }
 
+// Weights that went away: a model that was rational stays so.
+vtkSmartPointer<vtkDataArray> Ones(vtkIdType count)
+{
+  const auto ones = vtkSmartPointer<vtkDoubleArray>::New();
+  ones->SetNumberOfValues(count);
+  ones->FillValue(1.0);
+  return ones;
+}
+
 const double* Values(vtkDataArray* array)
 {
   return array ? static_cast<const double*>(array->GetVoidPointer(0)) : nullptr;
@@ -226,7 +235,9 @@ void vtkNURBSFrameModel::TakePoints(vtkUnstructuredGrid* grid)
 {
   this->PointStamps = PointStampsOf(grid);
   this->Points = AsDoubles(grid->GetPoints()->GetData());
-  this->Weights = AsDoubles(vtkNURBSModel::GetWeights(grid));
+  vtkDataArray* weights = vtkNURBSModel::GetWeights(grid);
+  const bool gone = !weights && this->Weights;
+  this->Weights = gone ? Ones(this->PointCount) : AsDoubles(weights);
   for (nurbs::Face& face : this->Model.Faces)
   {
     if (face.Geometry.Points)

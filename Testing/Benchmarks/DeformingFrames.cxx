@@ -5,6 +5,7 @@
 // A wave through CAD files moves control points, which their faces follow as closely as their nets
 // are dense: faces part at edges, which the mesh closes and the column "gap" tells of.
 #include "Measuring.h"
+#include "ModelExtent.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSDeformingTessellator.h"
 #include "vtkNURBSEGLRenderWindow.h"
@@ -16,6 +17,7 @@
 #include "vtkCamera.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkNew.h"
+#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -30,6 +32,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 
 namespace
 {
@@ -39,7 +42,7 @@ struct Settings
   std::string File;
   int Points = 250, Depth = 2, Frames = 100, Threads = 1;
   double Tolerance = 1e-3, Height = 0.01;
-  bool Draw = false;
+  bool Draw = false, KeepIndices = false;
 };
 
 // Medians of the phases of all frames but the first.
@@ -68,16 +71,43 @@ double Seconds(const std::function<void()>& work)
   return watch.Read().Elapsed;
 }
 
+// vtkOpenGLPolyDataMapper::BuildIBO appends to a state that it has not cleared, which makes the time of
+// the mesh a part of it: the index buffer is made again whenever points move. This clears it.
+class IndexKeepingMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static IndexKeepingMapper* New() { return new IndexKeepingMapper; }
+  vtkTypeMacro(IndexKeepingMapper, vtkOpenGLPolyDataMapper);
+
+protected:
+  void BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* mesh) override
+  {
+    this->TempState.Clear();
+    this->Superclass::BuildIBO(renderer, actor, mesh);
+  }
+};
+
+vtkSmartPointer<vtkMapper> MakeMapper(bool composite, bool keepIndices)
+{
+  if (composite)
+  {
+    return vtkSmartPointer<vtkCompositePolyDataMapper2>::New();
+  }
+  if (keepIndices)
+  {
+    return vtkSmartPointer<vtkMapper>::Take(IndexKeepingMapper::New());
+  }
+  return vtkSmartPointer<vtkPolyDataMapper>::New();
+}
+
 // Draws a mesh with its own window; llvmpipe where there is no GPU.
 class Picture
 {
 public:
-  explicit Picture(vtkNURBSDeformingTessellator* filter)
+  Picture(vtkNURBSDeformingTessellator* filter, bool keepIndices)
   {
     const bool composite = filter->GetOutputDataObject(0)->IsA("vtkCompositeDataSet") != 0;
-    this->Mapper = composite
-      ? vtkSmartPointer<vtkMapper>(vtkSmartPointer<vtkCompositePolyDataMapper2>::New())
-      : vtkSmartPointer<vtkMapper>(vtkSmartPointer<vtkPolyDataMapper>::New());
+    this->Mapper = MakeMapper(composite, keepIndices);
     this->Mapper->SetInputConnection(filter->GetOutputPort());
     this->Mapper->ScalarVisibilityOff();
     vtkNew<vtkActor> actor;
@@ -111,7 +141,7 @@ void Run(vtkDataObject* input, vtkNURBSDeformingTessellator* filter, const Setti
   std::unique_ptr<Picture> picture;
   if (settings.Draw)
   {
-    picture = std::make_unique<Picture>(filter);
+    picture = std::make_unique<Picture>(filter, settings.KeepIndices);
     std::printf("first picture %.1f ms\n", 1e3 * Seconds([&]() { picture->Draw(); }));
   }
   Table table;
@@ -177,7 +207,7 @@ void RunWave(const Settings& settings)
   input->DeepCopy(reader->GetOutputDataObject(0));
   std::vector<vtkUnstructuredGrid*> grids;
   std::vector<std::vector<nurbs::Vec3>> rest;
-  nurbs::Box3 box;
+  std::vector<nurbs::Box3> boxes;
   std::int64_t faces = 0;
   for (unsigned int p = 0; p < input->GetNumberOfPartitionedDataSets(); ++p)
   {
@@ -188,10 +218,17 @@ void RunWave(const Settings& settings)
     for (vtkIdType k = 0; k < grid->GetNumberOfPoints(); ++k)
     {
       rest.back().emplace_back(grid->GetPoint(k));
-      box.extend(rest.back().back());
     }
+    const auto view = vtkNURBSModel::View(grid);
+    std::vector<std::string> errors;
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    {
+      errors.push_back(view->GetFaceError(c));
+    }
+    const std::vector<nurbs::Box3> some = nurbs::FaceBoxes(view->GetModel(), errors);
+    boxes.insert(boxes.end(), some.begin(), some.end());
   }
-  const double size = box.diagonal().norm();
+  const double size = nurbs::Diagonal(boxes);
   std::printf("%lld faces in %zu models\n", (long long)faces, grids.size());
   std::printf("a view of all models: %.2f ms\n", 1e3 * Seconds([&]() {
     for (vtkUnstructuredGrid* grid : grids)
@@ -228,6 +265,7 @@ int main(int argc, char** argv)
   app.add_option("--threads", settings.Threads, "of vtkSMPTools");
   app.add_option("--tolerance", settings.Tolerance, "of the diagonal");
   app.add_flag("--draw", settings.Draw, "draw each frame twice, 800 x 600 pixels");
+  app.add_flag("--keep-indices", settings.KeepIndices, "draw by a mapper that keeps index buffers");
   CLI::App* sheet = app.add_subcommand("sheet", "a control point of a sheet is dragged");
   sheet->add_option("--points", settings.Points, "control points in u and v");
   sheet->add_option("--depth", settings.Depth, "subdivisions of a patch; -1: adaptive");

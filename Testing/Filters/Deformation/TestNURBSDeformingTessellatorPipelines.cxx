@@ -395,6 +395,54 @@ TEST(NURBSDeformingTessellator, Composites)
   EXPECT_LE(scene::Compare(mesh(2), grids[2]).Point, filter->GetModelGap() + 1e-12);
 }
 
+/// Aborts a filter when it is half done.
+class Aborter : public vtkCommand
+{
+public:
+  static Aborter* New() { return new Aborter; }
+  void Execute(vtkObject* caller, unsigned long, void* progress) override
+  {
+    if (*static_cast<double*>(progress) > 0.4)
+    {
+      vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+    }
+  }
+};
+
+// Blocks that an abort leaves out keep their meshes until the next update.
+TEST(NURBSDeformingTessellator, Aborts)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> grids[] = { Sphere(), Sphere() };
+  const auto rest = scene::Rest(grids[0]);
+  vtkNew<vtkPartitionedDataSetCollection> input;
+  input->SetPartition(0, 0, grids[0]);
+  input->SetPartition(1, 0, grids[1]);
+  vtkNew<Filter> filter;
+  filter->SetInputDataObject(input);
+  filter->Update();
+  vtkNew<Aborter> aborter;
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, aborter);
+  for (const auto& grid : grids)
+  {
+    scene::Wave(grid, rest, 0.05);
+  }
+  input->Modified();
+  filter->Update();
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  const auto mesh = [&](unsigned int k) {
+    return vtkPolyData::SafeDownCast(output->GetPartition(k, 0));
+  };
+  EXPECT_LE(scene::Compare(mesh(0), grids[0]).Point, filter->GetModelGap() + 1e-12);
+  EXPECT_GT(scene::Compare(mesh(1), grids[1]).Point, 0.01);
+  EXPECT_EQ(scene::OpenEdges(mesh(1)), 0u);
+  EXPECT_EQ(filter->GetMovedControlPoints(), grids[0]->GetNumberOfPoints());
+  filter->RemoveObserver(tag);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_LE(scene::Compare(mesh(1), grids[1]).Point, filter->GetModelGap() + 1e-12);
+}
+
 // Attributes of faces follow those of the input, and new values of an array replace it alone.
 TEST(NURBSDeformingTessellator, AttributesOfFaces)
 {
