@@ -94,7 +94,7 @@ def story(done, drawn):
 def animation(report, title, command, options):
     report.text(f"## {title}")
     print("...", *command, file=sys.stderr, flush=True)
-    frames = 60 if options.quick else options.frames
+    frames, seconds = (60, 60) if options.quick else (options.frames, options.limit)
     # A million vertices take a software renderer most of the time: every tenth picture will do.
     every = 1 if command[0] == "lattice" else 10
     checks = ["--check-every", "20", "--fresh-every", "30"] if options.quick else []
