@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 namespace nurbs
 {
@@ -55,6 +54,23 @@ Vertex NextOnLine(const Triangulation& mesh, Vertex a, Vertex b)
   return nullptr;
 }
 
+// Adds `walls` to the edges on the way from a to b, in both directions.
+void Count(const Triangulation& mesh, Vertex a, Vertex b, int walls,
+  std::map<std::pair<Vertex, Vertex>, int>& along)
+{
+  for (std::size_t step = 0; a != b && step < mesh.number_of_vertices(); ++step)
+  {
+    const Vertex next = NextOnLine(mesh, a, b);
+    if (next == nullptr)
+    {
+      return;
+    }
+    along[{ a, next }] += walls;
+    along[{ next, a }] += walls;
+    a = next;
+  }
+}
+
 } // namespace
 
 ZoneTriangles TriangulateZone(const Zone& zone)
@@ -91,26 +107,25 @@ ZoneTriangles TriangulateZone(const Zone& zone)
       mesh.insert_constraint(vertices[wall.first.first], vertices[wall.first.second]);
     }
   }
-  std::set<std::pair<Vertex, Vertex>> lines;
   for (const std::array<int, 2>& line : zone.Lines)
   {
-    mesh.insert_constraint(vertices[line[0]], vertices[line[1]]);
+    if (vertices[line[0]] != vertices[line[1]])
+    {
+      mesh.insert_constraint(vertices[line[0]], vertices[line[1]]);
+    }
+  }
+  // How many walls go along an edge; 0: lines only. Edges of walls that cross others are not found.
+  std::map<std::pair<Vertex, Vertex>, int> along;
+  for (const auto& wall : times)
+  {
+    if (wall.second % 2 == 1)
+    {
+      Count(mesh, vertices[wall.first.first], vertices[wall.first.second], 1, along);
+    }
   }
   for (const std::array<int, 2>& line : zone.Lines)
   {
-    Vertex a = vertices[line[0]];
-    const Vertex b = vertices[line[1]];
-    for (std::size_t step = 0; a != b && step < mesh.number_of_vertices(); ++step)
-    {
-      const Vertex next = NextOnLine(mesh, a, b);
-      if (next == nullptr)
-      {
-        break;
-      }
-      lines.insert({ a, next });
-      lines.insert({ next, a });
-      a = next;
-    }
+    Count(mesh, vertices[line[0]], vertices[line[1]], 0, along);
   }
   if (mesh.dimension() < 2)
   {
@@ -147,8 +162,9 @@ ZoneTriangles TriangulateZone(const Zone& zone)
       {
         continue;
       }
-      const bool wall = f->is_constrained(i) &&
-        lines.count({ f->vertex(Triangulation::ccw(i)), f->vertex(Triangulation::cw(i)) }) == 0;
+      const auto known =
+        along.find({ f->vertex(Triangulation::ccw(i)), f->vertex(Triangulation::cw(i)) });
+      const bool wall = f->is_constrained(i) && (known == along.end() || known->second % 2 == 1);
       next->info() = wall ? 3 - f->info() : f->info();
       stack.push_back(next);
     }

@@ -33,9 +33,10 @@ struct Cell
   std::int32_t Triangles = -1; ///< The first; -1: none.
   std::int32_t Corners[4] = { -1, -1, -1, -1 }; ///< Points, counter-clockwise; if Built.
   CellState State = CellState::New;
-  bool Built = false;  ///< Has triangles and uses its corners.
-  bool Forced = false; ///< Halved for the zone's sake.
-  bool Dirty = false;  ///< Its triangles have to be made again.
+  bool Built = false; ///< Has triangles and uses its corners.
+  bool Dirty = false; ///< Its triangles have to be made again.
+  /// The error with which it was halved for the zone's sake; 0: it was not.
+  double ForcedAt = 0.0;
   /// Bounds of the error when it was last measured, less (plus) what its patch's moves until then could
   /// change of it (PatchErrors.h); infinite: never.
   double Up = std::numeric_limits<double>::infinity();

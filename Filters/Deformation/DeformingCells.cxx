@@ -13,8 +13,9 @@ namespace nurbs
 namespace
 {
 
-constexpr double ForcedShare = 0.25; // Of the error to merge at: of cells halved for the zone.
-constexpr double CornerSnap = 1e-6;  // Of a cell: loop vertices that are its corners.
+constexpr double ForcedShare =
+  0.25; // Of the error that a cell was halved at for the zone: to merge.
+constexpr double CornerSnap = 1e-6; // Of a cell: loop vertices that are its corners.
 
 } // namespace
 
@@ -109,8 +110,9 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
     return;
   }
   const bool outside = first.State == CellState::Outside && second.State == CellState::Outside;
-  const double limit =
-    this->MergeShare * tolerance * (this->Forest[index].Forced ? ForcedShare : 1.0);
+  const double forced = this->Forest[index].ForcedAt;
+  const double limit = forced > 0.0 ? std::min(this->MergeShare * tolerance, ForcedShare * forced)
+                                    : this->MergeShare * tolerance;
   if (outside ||
     ((patch.Recheck || this->Forest[index].Low - moved <= limit) && measure() <= limit))
   {
@@ -153,6 +155,7 @@ void DeformingFace::SplitCell(std::int32_t index, int direction)
   this->ZoneChanged = this->ZoneChanged || this->Forest[index].State == CellState::Cut;
   this->MarkSides(this->Forest[index]);
   const std::int32_t child = this->Forest.Split(index, direction);
+  ++this->LeafCount;
   this->Fresh.push_back(child);
   this->Fresh.push_back(child + 1);
 }
@@ -170,6 +173,8 @@ void DeformingFace::MergeCell(std::int32_t index)
   }
   this->MarkSides(this->Forest[index]);
   this->Forest.Merge(index);
+  this->Forest[index].ForcedAt = 0.0;
+  --this->LeafCount;
   this->RetiredPairs.push_back(child);
   this->Fresh.push_back(index);
 }
@@ -183,23 +188,29 @@ void DeformingFace::MarkSides(const Cell& cell)
   }
 }
 
-void DeformingFace::Force(std::int32_t index)
+// Halves the leaf at a place until its extent in a direction is as asked for.
+void DeformingFace::Force(const CellRequest& request)
 {
-  if (!this->Forest.IsLeaf(index))
+  std::int32_t index = this->Forest.LeafAt(request.I, request.J);
+  for (;;)
   {
-    return; // Asked for by two triangles.
+    const ParameterBox box = this->Forest.Box(index);
+    const int d = request.Direction;
+    if ((d == 0 ? box.A() : box.B()) <= request.Extent || !this->CanSplit(index, d))
+    {
+      return;
+    }
+    const SecondBound second = this->NetOf(this->Forest[index].Patch).Second(box);
+    this->Forest[index].ForcedAt =
+      std::max(second.Bow(box.A(), box.B()), std::numeric_limits<double>::min());
+    this->SplitCell(index, d);
+    index = this->Forest.LeafAt(request.I, request.J);
   }
-  const ParameterBox box = this->Forest.Box(index);
-  SecondBound scaled = this->NetOf(this->Forest[index].Patch).Second(box);
-  scaled.Uu *= box.A() * box.A();
-  scaled.Uv *= box.A() * box.B();
-  scaled.Vv *= box.B() * box.B();
-  const int direction = this->DirectionOf(index, scaled);
-  if (direction >= 0)
-  {
-    this->Forest[index].Forced = true;
-    this->SplitCell(index, direction);
-  }
+}
+
+bool DeformingFace::CanSplit(std::int32_t index, int direction) const
+{
+  return this->Forest.CanSplit(index, direction) && this->LeafCount < this->Options.MaximumLeaves;
 }
 
 void DeformingFace::SideLines(int side, std::vector<std::uint32_t>& lines) const

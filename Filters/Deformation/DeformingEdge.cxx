@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nurbs
 {
@@ -17,6 +18,9 @@ constexpr double Straight = 1e-12;            // Of the box: no bend.
 constexpr int ClosedPieces = 4;               // That a closed edge has at least.
 constexpr double ShortestPiece = 1.0 / 65536; // Of the domain.
 constexpr int CreaseSamples = 64;
+constexpr double Bent = 1e-4; // Of its extent: a piece that is worth straightening.
+constexpr double ForcedShare =
+  0.25;                           // Of the error that a piece was halved at for a face: to merge.
 constexpr double OnePoint = 1e-9; // Of the control net: a pole.
 
 } // namespace
@@ -273,14 +277,37 @@ void DeformingEdge::Split(const Model& model, std::int32_t index)
   this->PiecesChanged = true;
 }
 
-bool DeformingEdge::Force(const Model& model, std::int32_t index)
+bool DeformingEdge::CanSplit(std::int32_t index) const
 {
-  Piece& piece = this->Pieces[index];
-  if (piece.Child >= 0 || piece.Free || piece.T1 - piece.T0 < ShortestPiece * this->Domain.Length())
+  const Piece& piece = this->Pieces[index];
+  return piece.Child < 0 && !piece.Free &&
+    piece.T1 - piece.T0 > ShortestPiece * this->Domain.Length();
+}
+
+bool DeformingEdge::Force(const Model& model, const Faces& faces, std::int32_t index)
+{
+  if (!this->CanSplit(index))
   {
     return false;
   }
-  piece.Forced = true;
+  double error = 0.0;
+  this->Errs(faces, this->Pieces[index], 0.0, true, error);
+  this->Pieces[index].ForcedAt = std::max(error, std::numeric_limits<double>::min());
+  this->Split(model, index);
+  return true;
+}
+
+bool DeformingEdge::Straighten(const Model& model, std::int32_t index)
+{
+  const auto bent = [](const PieceUse& use) {
+    return use.Bend.maxCoeff() > Bent * use.Extent.maxCoeff();
+  };
+  const std::vector<PieceUse>& uses = this->Pieces[index].Uses;
+  if (!this->CanSplit(index) || std::none_of(uses.begin(), uses.end(), bent))
+  {
+    return false;
+  }
+  this->Pieces[index].ForGood = true;
   this->Split(model, index);
   return true;
 }
@@ -334,16 +361,19 @@ void DeformingEdge::AdaptPiece(
   }
   this->AdaptPiece(model, faces, child, tolerance, hysteresis);
   this->AdaptPiece(model, faces, child + 1, tolerance, hysteresis);
-  if (this->Pieces[child].Child >= 0 || this->Pieces[child + 1].Child >= 0)
+  if (this->Pieces[child].Child >= 0 || this->Pieces[child + 1].Child >= 0 ||
+    this->Pieces[index].ForGood)
   {
     return;
   }
   Piece& piece = this->Pieces[index];
-  const double limit = hysteresis * tolerance * (piece.Forced ? 0.25 : 1.0);
+  const double limit = piece.ForcedAt > 0.0
+    ? std::min(hysteresis * tolerance, ForcedShare * piece.ForcedAt)
+    : hysteresis * tolerance;
   if (!this->Errs(faces, piece, limit, false, error))
   {
     piece.Child = -1;
-    piece.Forced = false;
+    piece.ForcedAt = 0.0;
     this->Pieces[child].Free = this->Pieces[child + 1].Free = true;
     this->FreePairs.push_back(child);
     this->PiecesChanged = true;

@@ -48,7 +48,9 @@ public:
   bool Adapt(const Model& model, const Faces& faces, double tolerance, double hysteresis);
   bool HasNewPieces() const { return this->PiecesChanged; }
   /// Halves a piece, if it is not very small.
-  bool Force(const Model& model, std::int32_t piece);
+  bool Force(const Model& model, const Faces& faces, std::int32_t piece);
+  /// Halves a piece that is bent, for good: loops' polylines cross.
+  bool Straighten(const Model& model, std::int32_t piece);
   /// Gives faces and edge the vertices that pieces and cells ask for. Returns whether they changed.
   bool Update(const Model& model, const Faces& faces);
   /// Removes the faces' vertices that are the edge's alone.
@@ -71,7 +73,8 @@ private:
     double T0 = 0.0, T1 = 0.0;
     std::int32_t Child = -1; ///< The first of two.
     bool Free = false;
-    bool Forced = false;
+    bool ForGood = false;       ///< Its halves are not merged.
+    double ForcedAt = 0.0;      ///< The error with which a face asked for halves; 0: none did.
     std::vector<PieceUse> Uses; ///< One an inner use.
   };
   struct Mark
@@ -85,6 +88,7 @@ private:
   double ParameterOn(const Model& model, std::size_t use, int direction, double value) const;
   void AddCreases(const Model& model, const Faces& faces, std::vector<double>& breaks) const;
   Piece MakePiece(const Model& model, double t0, double t1) const;
+  bool CanSplit(std::int32_t piece) const;
   void Split(const Model& model, std::int32_t piece);
   void AdaptPiece(const Model& model, const Faces& faces, std::int32_t piece, double tolerance,
     double hysteresis);

@@ -37,6 +37,7 @@ DeformingFace::DeformingFace(const SurfaceView& surface, bool reversed, const Pa
   , Patches(this->Lines.Patches())
 {
   this->Remember(surface);
+  this->LeafCount = this->Forest.Size();
   for (std::int32_t cell = 0; cell < this->Forest.Size(); ++cell)
   {
     this->Fresh.push_back(cell);
@@ -72,14 +73,14 @@ std::int64_t DeformingFace::Compare(const SurfaceView& surface)
   const std::int64_t first = surface.Id(0);
   this->MovedPoints.clear();
   bool even = surface.Id(count - 1) - first == count - 1;
-  for (std::int64_t k = 0; even && surface.Ids && k < count; k += block)
+  for (std::int64_t k = 0; even && surface.Ids && k < count; ++k)
   {
     even = surface.Ids[k] - first == k;
   }
   for (std::int64_t start = 0; start < count; start += block)
   {
     const std::int64_t end = std::min(count, start + block);
-    const bool same = even && !surface.Weights &&
+    const bool same = even && !surface.Weights && !this->Rational &&
       std::memcmp(surface.Points + 3 * (first + start), this->Places.data() + 3 * start,
         3 * (end - start) * sizeof(double)) == 0;
     for (std::int64_t k = start; k < end && !same; ++k)

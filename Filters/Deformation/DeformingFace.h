@@ -42,11 +42,20 @@ struct LoopSegment
   int Side = -1;           ///< Of the grid: 0 first v, 1 last u, 2 last v, 3 first u; -1: inside.
 };
 
+/// A cell that has to be narrower in one direction.
+struct CellRequest
+{
+  std::int64_t I, J; ///< A place in the cell, by lines.
+  int Direction;
+  double Extent; ///< That it should have at most.
+};
 /// What has to be finer, as triangles of the zone err by too much.
 struct RefinementRequests
 {
-  std::vector<std::int32_t> Cells;
+  std::vector<CellRequest> Cells;
   std::vector<std::pair<std::int32_t, std::int32_t>> Pieces; ///< Edge, its piece.
+  /// Likewise, of loops that cross.
+  std::vector<std::pair<std::int32_t, std::int32_t>> Crossing;
 };
 
 /// How a face follows.
@@ -54,8 +63,9 @@ struct FaceOptions
 {
   double Tolerance = 0.0;
   bool Refine = true;
-  int FixedDepth = -1;          ///< >= 0: every patch is halved so often in u and in v.
-  bool KeepCoefficients = true; ///< Of loop vertices.
+  int FixedDepth = -1;                  ///< >= 0: every patch is halved so often in u and in v.
+  std::int64_t MaximumLeaves = 1000000; ///< Cells; beyond, they are not halved.
+  bool KeepCoefficients = true;         ///< Of loop vertices.
   std::int64_t MaximumSums = 0; ///< Bytes for H, H_u, H_v; beyond, vertices are evaluated afresh.
 };
 
@@ -98,7 +108,7 @@ public:
   /// with the first loops.
   void ClassifyPatches();
   /// Halves a cell for the zone's sake.
-  void Force(std::int32_t cell);
+  void Force(const CellRequest& request);
   /// True if cells along a side were halved or merged since the last Rebuild.
   bool HasNewOnSide(int side) const { return this->NewOnSide[side]; }
   bool HasNewCells() const { return !this->Fresh.empty() || !this->Retired.empty(); }
@@ -216,6 +226,7 @@ private:
   void AdaptHalves(std::int32_t cell, double a, double b, NetPath& path);
   int DirectionOf(std::int32_t cell, const SecondBound& scaled) const;
   void MergeCell(std::int32_t cell);
+  bool CanSplit(std::int32_t cell, int direction) const;
   void MarkSides(const Cell& cell);
   void SplitCell(std::int32_t cell, int direction);
   std::uint64_t Key(std::uint32_t i, std::uint32_t j) const { return std::uint64_t(i) << 32 | j; }
@@ -268,11 +279,12 @@ private:
   std::int32_t NearestPoint(
     const std::vector<std::int32_t>& points, const Vec2& place, const Vec2& scale) const;
   double ToleranceAt(const ParameterBox& box) const;
-  void RequestPiece(std::int32_t a, std::int32_t b, RefinementRequests& requests) const;
+  bool IsInZone(const Vec2& place, int direction) const;
+  bool RequestPiece(std::int32_t a, std::int32_t b, RefinementRequests& requests) const;
   Vec2 ZoneScale();
   void AddCreases(const std::vector<std::int32_t>& points, Zone& zone) const;
   void CheckZone(RefinementRequests& requests, bool everything);
-  void RequestFor(std::size_t triangle, RefinementRequests& requests) const;
+  bool RequestFor(std::size_t triangle, RefinementRequests& requests);
 
   const std::int32_t Index;
   MeshSlots& Slots;
@@ -282,6 +294,7 @@ private:
   SurfaceView Surface;
   FaceGrid Lines;
   CellForest Forest;
+  std::int64_t LeafCount = 0;
   bool Rational = false;
   std::vector<double> Places;        ///< Control points, as they were given last.
   std::vector<Vec4> Control, Change; ///< Homogeneous; what a move changes.
@@ -308,6 +321,7 @@ private:
   std::vector<double>
     Coefficients; ///< Of loop vertices, as many as in the basis of both directions.
   std::vector<std::vector<LoopSegment>> Loops;
+  std::vector<const LoopSegment*> SegmentFrom; ///< That starts at a loop vertex; null: none.
   struct SideSegment
   {
     double Start = 0.0;     ///< Parameter along the side.

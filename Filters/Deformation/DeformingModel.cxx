@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr int MaximumRounds = 12;    // Of refinement of one frame.
-constexpr int CrossingRounds = 6;    // Of these, for loops that cross.
+constexpr int CrossingRounds = 5;    // Of these, of the first frame, for loops that cross.
 constexpr int BudgetRounds = 60;     // Of coarsening.
 constexpr double CoarsenStep = 1.25; // Of the tolerance in a round.
 constexpr double RelaxShare = 0.85;  // Of the budget: below, the tolerance falls again.
@@ -151,7 +151,15 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
   bool any = false;
   for (const std::pair<std::int32_t, std::int32_t>& piece : requests.Pieces)
   {
-    if (this->Edges[piece.first]->Force(this->Data.Data, piece.second))
+    if (this->Edges[piece.first]->Force(this->Data.Data, this->Faces, piece.second))
+    {
+      this->EdgeChanged[piece.first] = 1;
+      any = true;
+    }
+  }
+  for (const std::pair<std::int32_t, std::int32_t>& piece : requests.Crossing)
+  {
+    if (this->Edges[piece.first]->Straighten(this->Data.Data, piece.second))
     {
       this->EdgeChanged[piece.first] = 1;
       any = true;
@@ -189,7 +197,7 @@ void DeformingModel::Rebuild(const Viewer* viewer)
       }
       RefinementRequests own;
       face->Rebuild(own);
-      if (round < CrossingRounds && face->HasCrossingLoops())
+      if (this->Making && round < CrossingRounds && face->HasCrossingLoops())
       {
         face->RequestLoops(own);
       }
@@ -199,6 +207,7 @@ void DeformingModel::Rebuild(const Viewer* viewer)
       }
       again = again || face->HasNewCells();
       requests.Pieces.insert(requests.Pieces.end(), own.Pieces.begin(), own.Pieces.end());
+      requests.Crossing.insert(requests.Crossing.end(), own.Crossing.begin(), own.Crossing.end());
     }
     if (last || !(this->Honour(requests) || again))
     {

@@ -75,6 +75,14 @@ int GridAxis::ColumnAt(double t) const
   return std::clamp(int(next - this->Breaks.begin()) - 1, 0, this->Columns() - 1);
 }
 
+std::int64_t GridAxis::LineBelow(double t) const
+{
+  const int column = this->ColumnAt(t);
+  const Interval extent = this->Extent(column);
+  const double part = std::clamp((t - extent.Min) / extent.Length(), 0.0, 1.0 - 1e-9);
+  return (std::int64_t(column) << ColumnBits) + std::int64_t(part * ColumnUnits);
+}
+
 double GridAxis::Parameter(std::uint32_t line) const
 {
   const std::uint32_t column = line >> ColumnBits;

@@ -48,6 +48,8 @@ public:
   /// The column that a parameter lies in.
   int ColumnAt(double t) const;
   double Parameter(std::uint32_t line) const;
+  /// The coordinate of the line at a parameter or before it, of the smallest cells there can be.
+  std::int64_t LineBelow(double t) const;
 
   /// The index of a line among those of its column; made if it is new.
   int Line(std::uint32_t line);

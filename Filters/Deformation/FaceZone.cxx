@@ -251,13 +251,30 @@ void DeformingFace::AddCreases(const std::vector<std::int32_t>& points, Zone& zo
         Vec2 middle;
         middle[d] = crease;
         middle[1 - d] = 0.5 * (on[k - 1].first + on[k].first);
-        if (this->IsInside(middle))
+        if (this->IsInside(middle) && this->IsInZone(middle, d))
         {
           zone.Lines.push_back({ on[k - 1].second, on[k].second });
         }
       }
     }
   }
+}
+
+// True if the cells on both sides of a line in a direction are cut: else it is a wall, or none of ours.
+bool DeformingFace::IsInZone(const Vec2& place, int d) const
+{
+  const std::int64_t line[2] = { this->Lines.Axis[0].LineBelow(place[0]),
+    this->Lines.Axis[1].LineBelow(place[1]) };
+  for (int side = 0; side < 2; ++side)
+  {
+    const std::int32_t leaf =
+      this->Forest.LeafAt(line[0] - (d == 0 ? side : 0), line[1] - (d == 1 ? side : 0));
+    if (leaf < 0 || this->Forest[leaf].State != CellState::Cut)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 void DeformingFace::BuildZone(RefinementRequests& requests)
@@ -375,39 +392,56 @@ double DeformingFace::ToleranceAt(const ParameterBox& box) const
   return this->Patches[this->Lines.Patch(column, row)].Tolerance;
 }
 
-// A triangle is too large because the cells in it are, or the loop's pieces.
-void DeformingFace::RequestFor(std::size_t index, RefinementRequests& requests) const
+// A triangle is too long, in the direction that it deviates more in, because the cells in it are or the
+// loops' pieces along it. Returns whether there was anything to ask for.
+bool DeformingFace::RequestFor(std::size_t index, RefinementRequests& requests)
 {
   const ZoneTriangle& triangle = this->Zones[index];
+  const ParameterBox& box = triangle.Box;
+  const SecondBound second = this->Second(box);
+  const double deviation[2] = { box.A() * box.A() * second.Uu, box.B() * box.B() * second.Vv };
+  const bool twisted = 2.0 * box.A() * box.B() * second.Uv > deviation[0] + deviation[1];
   const Vec2 middle = (this->Slots.UV(triangle.Points[0]) + this->Slots.UV(triangle.Points[1]) +
                         this->Slots.UV(triangle.Points[2])) /
     3.0;
-  std::int64_t line[2];
+  const std::int64_t line[2] = { this->Lines.Axis[0].LineBelow(middle[0]),
+    this->Lines.Axis[1].LineBelow(middle[1]) };
+  const std::int32_t leaf = this->Forest.LeafAt(line[0], line[1]);
+  const ParameterBox cell = this->Forest.Box(leaf);
+  bool any = false;
+  const auto halve = [&](int d) {
+    const double extent = LargeCell * (d == 0 ? box.A() : box.B());
+    if ((d == 0 ? cell.A() : cell.B()) > extent && this->CanSplit(leaf, d))
+    {
+      requests.Cells.push_back({ line[0], line[1], d, extent });
+      any = true;
+    }
+  };
   for (int d = 0; d < 2; ++d)
   {
-    const GridAxis& axis = this->Lines.Axis[d];
-    const int column = axis.ColumnAt(middle[d]);
-    const Interval extent = axis.Extent(column);
-    const double part = std::clamp((middle[d] - extent.Min) / extent.Length(), 0.0, 1.0 - 1e-9);
-    line[d] = (std::int64_t(column) << ColumnBits) + std::int64_t(part * ColumnUnits);
-  }
-  const std::int32_t leaf = this->Forest.LeafAt(line[0], line[1]);
-  const ParameterBox box = this->Forest.Box(leaf);
-  const bool large =
-    box.A() > LargeCell * triangle.Box.A() || box.B() > LargeCell * triangle.Box.B();
-  if (large && (this->Forest.CanSplit(leaf, 0) || this->Forest.CanSplit(leaf, 1)))
-  {
-    requests.Cells.push_back(leaf);
-  }
-  for (int k = 0; k < 3; ++k)
-  {
-    const std::int32_t a = triangle.Points[k];
-    const std::int32_t b = triangle.Points[(k + 1) % 3];
-    if (this->Slots.Use(a).Patch < 0 && this->Slots.Use(b).Patch < 0)
+    if (!twisted && deviation[d] < deviation[1 - d])
     {
-      this->RequestPiece(a, b, requests);
+      continue;
+    }
+    halve(d);
+    const double extent = LargeCell * (d == 0 ? box.A() : box.B());
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = triangle.Points[k];
+      const std::int32_t b = triangle.Points[(k + 1) % 3];
+      const Vec2 side = (this->Slots.UV(b) - this->Slots.UV(a)).cwiseAbs();
+      if (side[d] > extent && this->Slots.Use(a).Patch < 0 && this->Slots.Use(b).Patch < 0)
+      {
+        any = this->RequestPiece(a, b, requests) || any;
+      }
     }
   }
+  // Cells may be short enough, and have no corner in the triangle as they are too long.
+  for (int d = 0; d < 2 && !any; ++d)
+  {
+    halve(d);
+  }
+  return any;
 }
 
 void DeformingFace::RequestLoops(RefinementRequests& requests) const
@@ -418,27 +452,26 @@ void DeformingFace::RequestLoops(RefinementRequests& requests) const
     {
       if (s.Piece >= 0)
       {
-        requests.Pieces.emplace_back(s.Edge, s.Piece);
+        requests.Crossing.emplace_back(s.Edge, s.Piece);
       }
     }
   }
 }
 
 // The loop's piece between two of its vertices, if they are neighbours.
-void DeformingFace::RequestPiece(std::int32_t a, std::int32_t b, RefinementRequests& requests) const
+bool DeformingFace::RequestPiece(std::int32_t a, std::int32_t b, RefinementRequests& requests) const
 {
-  for (const std::vector<LoopSegment>& loop : this->Loops)
+  const std::int32_t vertex[2] = { this->Slots.Use(a).Index, this->Slots.Use(b).Index };
+  for (int k = 0; k < 2; ++k)
   {
-    for (const LoopSegment& s : loop)
+    const LoopSegment* s = this->SegmentFrom[vertex[k]];
+    if (s && s->B == vertex[1 - k] && s->Piece >= 0)
     {
-      const std::int32_t first = this->LoopVertices[s.A].Point;
-      const std::int32_t second = this->LoopVertices[s.B].Point;
-      if (s.Piece >= 0 && std::minmax(first, second) == std::minmax(a, b))
-      {
-        requests.Pieces.emplace_back(s.Edge, s.Piece);
-      }
+      requests.Pieces.emplace_back(s->Edge, s->Piece);
+      return true;
     }
   }
+  return false;
 }
 
 } // namespace nurbs

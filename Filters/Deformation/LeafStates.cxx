@@ -61,10 +61,12 @@ void DeformingFace::SetLoops(std::vector<std::vector<LoopSegment>> loops, bool i
   {
     side.clear();
   }
+  this->SegmentFrom.assign(this->LoopVertices.size(), nullptr);
   for (const std::vector<LoopSegment>& loop : this->Loops)
   {
     for (const LoopSegment& s : loop)
     {
+      this->SegmentFrom[s.A] = &s;
       if (s.Side < 0)
       {
         this->HasInnerPieces = true;

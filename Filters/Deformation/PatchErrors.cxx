@@ -63,60 +63,73 @@ void HalveLine(Vec4* points, int count, int stride, int half)
   }
 }
 
-// Largest differences of Bezier points, squared.
+// Largest lengths of differences of Bezier points; of their first three numbers, or of the fourth.
 struct Differences
 {
   double U = 0.0, V = 0.0, Uu = 0.0, Uv = 0.0, Vv = 0.0;
 };
 
-double Square(const Vec3& x)
+void Track(const Vec4& difference, double& xyz, double& w)
 {
-  return x.squaredNorm();
-}
-double Square(double x)
-{
-  return x * x;
+  const Vec4 square = difference.cwiseProduct(difference);
+  xyz = std::max(xyz, square[0] + square[1] + square[2]);
+  w = std::max(w, square[3]);
 }
 
-// `at(k)`: point k of a net of n x m, u fastest. First differences with `first` only.
-template <typename At>
-Differences LargestDifferences(int n, int m, bool first, const At& at)
+void TakeRoots(Differences& d)
 {
-  Differences d;
+  for (double* square : { &d.U, &d.V, &d.Uu, &d.Uv, &d.Vv })
+  {
+    *square = std::sqrt(*square);
+  }
+}
+
+// Of a net of n x m points, u fastest. First differences with `First` only. `steps` is for its memory.
+template <bool First>
+void LargestDifferences(
+  const Vec4* x, int n, int m, std::vector<Vec4>& steps, Differences& xyz, Differences& w)
+{
+  const int width = n - 1;
+  steps.resize(std::size_t(std::max(1, width)) * m);
   for (int j = 0; j < m; ++j)
   {
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < width; ++i)
     {
-      const int k = i + j * n;
-      const auto x = at(k);
-      if (first && i + 1 < n)
+      const Vec4 step = x[i + 1 + j * n] - x[i + j * n];
+      steps[i + j * width] = step;
+      if (First)
       {
-        d.U = std::max(d.U, Square(decltype(x)(at(k + 1) - x)));
+        Track(step, xyz.U, w.U);
       }
-      if (first && j + 1 < m)
+      if (i > 0)
       {
-        d.V = std::max(d.V, Square(decltype(x)(at(k + n) - x)));
+        Track(step - steps[i - 1 + j * width], xyz.Uu, w.Uu);
       }
-      if (i + 2 < n)
+      if (j > 0)
       {
-        d.Uu = std::max(d.Uu, Square(decltype(x)(at(k + 2) - 2.0 * at(k + 1) + x)));
-      }
-      if (i + 1 < n && j + 1 < m)
-      {
-        d.Uv = std::max(d.Uv, Square(decltype(x)(at(k + n + 1) - at(k + n) - at(k + 1) + x)));
-      }
-      if (j + 2 < m)
-      {
-        d.Vv = std::max(d.Vv, Square(decltype(x)(at(k + 2 * n) - 2.0 * at(k + n) + x)));
+        Track(step - steps[i + (j - 1) * width], xyz.Uv, w.Uv);
       }
     }
   }
-  d.U = std::sqrt(d.U);
-  d.V = std::sqrt(d.V);
-  d.Uu = std::sqrt(d.Uu);
-  d.Uv = std::sqrt(d.Uv);
-  d.Vv = std::sqrt(d.Vv);
-  return d;
+  for (int i = 0; i < n; ++i)
+  {
+    Vec4 before = Vec4::Zero();
+    for (int j = 0; j + 1 < m; ++j)
+    {
+      const Vec4 step = x[i + (j + 1) * n] - x[i + j * n];
+      if (First)
+      {
+        Track(step, xyz.V, w.V);
+      }
+      if (j > 0)
+      {
+        Track(step - before, xyz.Vv, w.Vv);
+      }
+      before = step;
+    }
+  }
+  TakeRoots(xyz);
+  TakeRoots(w);
 }
 
 double Greatest(const DerivativeIntervals& d, int k)
@@ -270,15 +283,15 @@ SecondBound NetPath::Scaled()
   const int p = this->P;
   const int q = this->Q;
   const int n = p + 1;
+  Differences g, w;
   if (!this->Rational)
   {
-    const Differences d =
-      LargestDifferences(n, q + 1, false, [&](int k) -> Vec3 { return points[k].head<3>(); });
-    return { p * (p - 1) * d.Uu, p * q * d.Uv, q * (q - 1) * d.Vv };
+    LargestDifferences<false>(points, n, q + 1, this->Steps4, g, w);
+    return { p * (p - 1) * g.Uu, p * q * g.Uv, q * (q - 1) * g.Vv };
   }
-  const auto corner = [&](int k) -> Vec3 { return points[k].head<3>() / points[k][3]; };
-  const Vec3 corners[4] = { corner(0), corner(p), corner(q * n), corner(p + q * n) };
-  this->Less.assign(std::size_t(p + 2) * (q + 2), Vec3::Zero());
+  const auto corner = [&](int k) -> Vec4 { return points[k] / points[k][3]; };
+  const Vec4 corners[4] = { corner(0), corner(p), corner(q * n), corner(p + q * n) };
+  this->Less.assign(std::size_t(p + 2) * (q + 2), Vec4::Zero());
   double weight = points[0][3];
   for (int j = 0; j <= q; ++j)
   {
@@ -291,29 +304,28 @@ SecondBound NetPath::Scaled()
         const int a = k & 1;
         const int b = k >> 1;
         const double share =
-          (a ? i + 1.0 : p + 1.0 - i) / (p + 1) * ((b ? j + 1.0 : q + 1.0 - j) / (q + 1));
-        this->Less[i + a + std::size_t(j + b) * (p + 2)] +=
-          share * (h.head<3>() - h[3] * corners[k]);
+          (a ? i + 1.0 : p + 1.0 - i) * (b ? j + 1.0 : q + 1.0 - j) / ((p + 1) * (q + 1));
+        Vec4 less = h - h[3] * corners[k];
+        less[3] = h[3];
+        this->Less[i + a + std::size_t(j + b) * (p + 2)] += share * less;
       }
     }
   }
   double radius = 0.0;
-  for (const Vec3& g : this->Less)
+  for (const Vec4& l : this->Less)
   {
-    radius = std::max(radius, g.squaredNorm());
+    radius = std::max(radius, l.head<3>().squaredNorm());
   }
   radius = std::sqrt(radius) / weight;
-  const Differences g =
-    LargestDifferences(p + 2, q + 2, true, [&](int k) -> const Vec3& { return this->Less[k]; });
-  const Differences w = LargestDifferences(n, q + 1, true, [&](int k) { return points[k][3]; });
-  const double wu = p * w.U;
-  const double wv = q * w.V;
+  LargestDifferences<true>(this->Less.data(), p + 2, q + 2, this->Steps4, g, w);
+  const double wu = (p + 1) * w.U;
+  const double wv = (q + 1) * w.V;
   const double u = ((p + 1) * g.U + wu * radius) / weight;
   const double v = ((q + 1) * g.V + wv * radius) / weight;
   const double twist = (corners[3] - corners[2] - corners[1] + corners[0]).norm();
-  return { ((p + 1) * p * g.Uu + 2.0 * wu * u + p * (p - 1) * w.Uu * radius) / weight,
-    twist + ((p + 1) * (q + 1) * g.Uv + wu * v + wv * u + p * q * w.Uv * radius) / weight,
-    ((q + 1) * q * g.Vv + 2.0 * wv * v + q * (q - 1) * w.Vv * radius) / weight };
+  return { ((p + 1) * p * (g.Uu + w.Uu * radius) + 2.0 * wu * u) / weight,
+    twist + ((p + 1) * (q + 1) * (g.Uv + w.Uv * radius) + wu * v + wv * u) / weight,
+    ((q + 1) * q * (g.Vv + w.Vv * radius) + 2.0 * wv * v) / weight };
 }
 
 void ShortestDerivatives(

@@ -83,7 +83,8 @@ private:
   std::vector<Step> Steps;
   std::vector<std::vector<Vec4>> Levels; ///< After so many steps.
   std::size_t Made = 0;                  ///< The last of them that is that of the present way.
-  std::vector<Vec3> Less;                ///< The part less a bilinear surface.
+  std::vector<Vec4> Less,
+    Steps4; ///< The part less a bilinear surface, with its weights; for memory.
 };
 
 /// Squared |S_u| and |S_v| under which a normal needs care: small shares of the longest steps of the

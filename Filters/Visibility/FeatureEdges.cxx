@@ -83,13 +83,22 @@ LineKind KindOfEdge(
   return LineKind::Smooth;
 }
 
-std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, double precision)
+std::vector<ContourPoint> LiftEdge(
+  const Model& model, const EdgeUse& use, const Interval& range, double precision)
 {
   const SurfaceView& surface = model.Faces[use.Face].Geometry;
   std::vector<ContourPoint> out;
   for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[use.Curve].Geometry))
   {
-    const auto at = [&](double t) { return Lift(surface, piece.Evaluate(t)); };
+    const double low = (range.Clamp(piece.T0) - piece.T0) / (piece.T1 - piece.T0);
+    const double high = (range.Clamp(piece.T1) - piece.T0) / (piece.T1 - piece.T0);
+    if (!(low < high))
+    {
+      continue;
+    }
+    const auto at = [&](double t) {
+      return Lift(surface, piece.Evaluate(t < 1.0 ? low + t * (high - low) : high));
+    };
     ContourPoint a = out.empty() ? at(0.0) : out.back();
     const ContourPoint end = at(1.0);
     if (out.empty())

@@ -29,7 +29,9 @@ std::vector<std::vector<EdgeUse>> UsesOfEdges(
 LineKind KindOfEdge(
   const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses, double featureAngle);
 
-/// The trim curve of a use lifted to its surface, in the edge's direction, within `precision`.
-std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, double precision);
+/// The part `range` (parameters of the trim curve, Min < Max) of a use lifted to its surface, in the
+/// edge's direction, within `precision`.
+std::vector<ContourPoint> LiftEdge(
+  const Model& model, const EdgeUse& use, const Interval& range, double precision);
 
 } // namespace nurbs

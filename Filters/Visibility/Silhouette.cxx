@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Silhouette.h"
 
+#include "EdgeContour.h"
 #include "LineChains.h"
 #include "ModelExtent.h"
 
@@ -41,6 +42,7 @@ private:
   void TraceFaces(Silhouettes& out);
   void TraceFace(std::int64_t face, FaceSilhouette& status, std::vector<SilhouetteLine>& lines);
   void CheckCosines(SilhouetteLine& line) const;
+  void TraceEdge(std::int64_t edge, std::vector<SilhouetteLine>& lines);
   void TraceEdges(Silhouettes& out);
   void DropShort(std::vector<SilhouetteLine>& lines) const;
   void DropRepeated(std::vector<SilhouetteLine>& lines) const;
@@ -184,11 +186,48 @@ void SilhouetteMaker::TraceFaces(Silhouettes& out)
   }
 }
 
+// True if one of the two faces may face the viewer where the other one does not.
+bool MayTurn(const Silhouettes& result, const std::vector<EdgeUse>& uses)
+{
+  bool front = false;
+  bool back = false;
+  for (const EdgeUse& use : uses)
+  {
+    const std::int64_t* const patches = result.Faces[use.Face].Patches;
+    front =
+      front || patches[int(PatchVisibility::Visible)] + patches[int(PatchVisibility::Partial)] > 0;
+    back =
+      back || patches[int(PatchVisibility::Invisible)] + patches[int(PatchVisibility::Partial)] > 0;
+  }
+  return front && back;
+}
+
+// What of a smooth edge is a contour itself.
+void SilhouetteMaker::TraceEdge(std::int64_t edge, std::vector<SilhouetteLine>& lines)
+{
+  for (EdgeContour& contour :
+    ContoursOfEdge(this->Whole.Data, edge, this->Uses[edge], this->View, this->Options.Precision))
+  {
+    SilhouetteLine line;
+    line.Face = contour.Use.Face;
+    line.Edge = edge;
+    line.Crease = true;
+    line.Points = std::move(contour.Points);
+    for (int end = 0; end < 2; ++end)
+    {
+      line.Ends[end] = { contour.Use.Curve, contour.Ends[end] };
+    }
+    lines.push_back(std::move(line));
+  }
+  this->DropShort(lines);
+}
+
 void SilhouetteMaker::TraceEdges(Silhouettes& out)
 {
   const Model& model = this->Whole.Data;
   const std::int64_t count = std::int64_t(model.Edges.size());
   std::vector<SilhouetteLine> lines(count);
+  std::vector<std::vector<SilhouetteLine>> contours(count);
   this->Options.Parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end && !this->Aborted; ++e)
     {
@@ -199,16 +238,25 @@ void SilhouetteMaker::TraceEdges(Silhouettes& out)
         continue;
       }
       const LineKind kind = KindOfEdge(model, e, uses, this->Options.FeatureAngle);
+      if (kind == LineKind::Smooth && this->Options.Kinds[0] && MayTurn(out, uses))
+      {
+        this->TraceEdge(e, contours[e]);
+      }
       if (this->Options.Kinds[static_cast<int>(kind)])
       {
         SilhouetteLine& line = lines[e];
         line.Kind = kind;
         line.Face = uses.front().Face;
         line.Edge = e;
-        line.Points = LiftEdge(model, uses.front(), this->Options.Precision);
+        line.Points = LiftEdge(model, uses.front(),
+          model.TrimCurves[uses.front().Curve].Geometry.Domain(), this->Options.Precision);
       }
     }
   });
+  for (std::vector<SilhouetteLine>& part : contours)
+  {
+    std::move(part.begin(), part.end(), std::back_inserter(out.Lines));
+  }
   for (SilhouetteLine& line : lines)
   {
     if (line.Points.size() > 1)

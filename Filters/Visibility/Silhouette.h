@@ -33,7 +33,7 @@ struct SilhouetteLine
   std::int64_t Face = -1;
   std::int64_t Edge =
     -1;                ///< Index into the given model's edges; -1: none, or one it does not have.
-  bool Crease = false; ///< Silhouette: along a knot line or edge where the normal jumps.
+  bool Crease = false; ///< Silhouette: along a knot line or smooth edge where the normal jumps.
   bool Closed = false; ///< The first point is not repeated.
   std::vector<ContourPoint> Points;
   TrimCrossing Ends[2]; ///< Silhouettes: the trim curves that they end on.

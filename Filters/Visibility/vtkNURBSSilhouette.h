@@ -20,7 +20,7 @@
  * | cell data | FaceId and all other attributes of the model's faces | of the line's face |
  * | cell data | EdgeId | the edge that the line runs along, as trim curves name it; -1: none |
  * | cell data | Kind (unsigned char) | 0 silhouette, 1 boundary, 2 sharp edge, 3 smooth edge |
- * | cell data | OnCrease (unsigned char) | 1: a silhouette where the normal jumps within a face |
+ * | cell data | OnCrease (unsigned char) | 1: a silhouette along a crease or smooth edge, where the normal jumps |
  * | cell data | Chain | lines of one number are connected |
  * | field data | FaceIds (1 a face) | identity of the faces that the next arrays tell of |
  * | field data | FacePatches (4) | Bezier patches: visible, invisible, partial, edge-on |

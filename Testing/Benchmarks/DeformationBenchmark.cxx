@@ -122,10 +122,13 @@ double ChangedPolygons(Contestant& c, const Surface& start)
   return double(changed) / frames / double(rival.Triangles());
 }
 
-/// A way as long as changes that share of the polygons a frame.
+/// A way as long as changes that share of the polygons a frame, if the mesh does not become another one
+/// before.
 void Lengthen(Contestant& c, const Surface& start, double share)
 {
-  for (int k = 0; k < 40 && ChangedPolygons(c, start) < share; ++k)
+  const auto& rival = dynamic_cast<IncrementalRival&>(*c.Rival);
+  const double most = 1.25 * double(rival.Triangles());
+  while (ChangedPolygons(c, start) < share && double(rival.Triangles()) < most)
   {
     c.Reach *= 1.25;
   }

@@ -5,7 +5,8 @@
 // counted), lines, connected silhouettes, points. With --grid, silhouettes are compared with the
 // signs of nurbs::Normal . view on N x N samples a face, within its trims: how many neighbours of
 // different signs have no silhouette within a cell, the largest |normal . view| of the points and
-// the largest distance between chords and contour, of the precision.
+// the largest distance between chords and contour, of the precision; chords whose front is not on
+// the left; ends of silhouettes that go on nowhere and are no border's or sharp edge's.
 #include "Measuring.h"
 #include "ModelExtent.h"
 #include "nurbsSilhouetteReference.h"
@@ -60,8 +61,9 @@ void Check(const nurbs::Model& model, const std::vector<std::string>& errors,
       std::printf(" (face %zu: %d)", f, checks[f].Missed);
     }
   }
-  std::printf("  missed %d of %d, over 1e-9 %d (%.1e), chord %.2f, wrong side %d", missed, changes,
-    measure.Over, measure.Cosine, measure.Chord / options.Precision, measure.WrongSide);
+  std::printf("  missed %d of %d, over 1e-9 %d (%.1e), chord %.2f, wrong side %d, loose %d", missed,
+    changes, measure.Over, measure.Cosine, measure.Chord / options.Precision, measure.WrongSide,
+    reference::LooseEnds(result, 20.0 * options.Precision));
 }
 
 vtkSmartPointer<vtkDataObject> Read(const std::string& file)

@@ -279,6 +279,31 @@ inline GridCheck CheckGrid(const Model& model, std::int64_t face, const Silhouet
   return CheckGrid(model, face, result, viewer, precision, n, [](const Vec2&) { return true; });
 }
 
+/// Ends of silhouettes that go on nowhere, and are farther than `reach` from borders and sharp edges.
+inline int LooseEnds(const Silhouettes& result, double reach)
+{
+  int loose = 0;
+  for (const SilhouetteLine& line : result.Lines)
+  {
+    for (int end = 0; line.Kind == LineKind::Silhouette && !line.Closed && end < 2; ++end)
+    {
+      const Vec3& point = (end == 0 ? line.Points.front() : line.Points.back()).Point;
+      double nearest = line.Next[end] >= 0 ? 0.0 : 1e300;
+      for (const SilhouetteLine& edge : result.Lines)
+      {
+        for (std::size_t k = 1;
+             nearest > reach && edge.Kind != LineKind::Silhouette && k < edge.Points.size(); ++k)
+        {
+          nearest = std::min(nearest,
+            nurbs::DistanceToSegment(point, edge.Points[k - 1].Point, edge.Points[k].Point));
+        }
+      }
+      loose += nearest > reach;
+    }
+  }
+  return loose;
+}
+
 /// A Bezier patch with control points z(i, j) over the unit square.
 template <typename Point>
 nurbs::Surface BezierSurface(int p, int q, const Point& point)

@@ -256,6 +256,39 @@ TEST(FeatureEdges, KindsByAngle)
   }
 }
 
+// Planes that meet at 10 degrees, one of which faces the viewer: their edge is the silhouette.
+TEST(FeatureEdges, SmoothEdgesThatTurnAway)
+{
+  const double a = 10.0 * Pi / 180.0;
+  const nurbs::Surface flat =
+    BezierSurface(1, 1, [](double u, double v) { return Vec3(u - 1.0, v, 0.0); });
+  const nurbs::Surface slope = BezierSurface(
+    1, 1, [a](double u, double v) { return Vec3(u * std::cos(a), v, u * std::sin(a)); });
+  for (const bool reversed : { false, true })
+  {
+    Model model = OneFace(flat);
+    nurbs::Face face;
+    face.Geometry = slope.View();
+    model.Faces.push_back(face);
+    model.Faces[0].Reversed = model.Faces[1].Reversed = reversed;
+    const Silhouettes over = Make(model, Direction(0, 0, 1), 1e-4);
+    EXPECT_EQ(over.Chains[0], 0);
+    const Silhouettes result = Make(model, Direction(1, 0, 0.1), 1e-4);
+    ASSERT_EQ(result.Chains[0], 1);
+    for (const SilhouetteLine& line : result.Lines)
+    {
+      if (line.Kind == LineKind::Silhouette)
+      {
+        EXPECT_TRUE(line.Crease);
+        EXPECT_NEAR(Length(line), 1.0, 1e-12);
+        // The front is the flat one, or of outsides below the slope; on the left from outside.
+        EXPECT_EQ(line.Face, reversed ? 1 : 0);
+        EXPECT_NEAR(line.Points[0].Point[1], 0.0, 1e-15);
+      }
+    }
+  }
+}
+
 // Round edges within the precision, against a circle.
 TEST(FeatureEdges, LieOnTheCurve)
 {

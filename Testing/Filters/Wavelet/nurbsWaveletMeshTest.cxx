@@ -174,6 +174,26 @@ TEST(nurbsWaveletMesh, LinesAreEdgesAndNoWalls)
   EXPECT_EQ(beside, 2);
 }
 
+// A crease that a wall runs along, in pieces of its own, one of no length, and a wall that covers others.
+TEST(nurbsWaveletMesh, LinesAlongWallsLeaveThemWalls)
+{
+  nurbs::Zone zone;
+  AddPolygon(zone, Square(0.0, 4.0));
+  AddPolygon(zone, Square(1.0, 3.0));
+  zone.Points.emplace_back(2.0, 1.0);
+  zone.Points.emplace_back(2.0, 1.0);
+  zone.Lines = { { 4, 8 }, { 9, 5 }, { 8, 9 }, { 3, 0 } };
+  const nurbs::ZoneTriangles made = nurbs::TriangulateZone(zone);
+  EXPECT_NEAR(Area(zone.Points, made.Triangles), 16.0 - 4.0, 1e-12);
+  zone.Walls.push_back({ 4, 8 });
+  zone.Walls.push_back({ 8, 5 }); // Now there twice: no wall, and the zone has a slit there.
+  zone.Walls.push_back({ 4, 7 });
+  zone.Walls.push_back({ 7, 6 });
+  zone.Walls.push_back({ 6, 5 });
+  const nurbs::ZoneTriangles whole = nurbs::TriangulateZone(zone);
+  EXPECT_NEAR(Area(zone.Points, whole.Triangles), 16.0, 1e-12);
+}
+
 TEST(nurbsWaveletMesh, WallsThatCrossMakeVerticesAndSlitsDoNot)
 {
   nurbs::Zone zone;
