@@ -1,5 +1,5 @@
-"""Two animations of meshes that follow, as PNG frames and GIFs: a sheet whose control point is dragged,
-and a CAD file in a lattice through which a wave runs.
+"""Two animations of meshes that follow, as PNG frames and GIFs: a sheet whose control point is
+dragged, and a CAD file in a lattice through which a wave runs.
 
     PYTHONPATH=build/release/lib/python3/dist-packages \\
         /usr/bin/python3 Documentation/Examples/deforming.py FOLDER [FILE] [--frames 24]
@@ -63,7 +63,8 @@ def animate(name, deformer, move, tolerance, position, zoom):
         writer.SetFileName(files[-1])
         writer.Write()
         print(f"{name} {frame}: {mesher.GetNumberOfTriangles()} triangles, "
-              f"{mesher.GetInsertedVertices()} vertices inserted, {mesher.GetDeletedVertices()} deleted, "
+              f"{mesher.GetInsertedVertices()} vertices inserted, "
+              f"{mesher.GetDeletedVertices()} deleted, "
               f"error at most {mesher.GetErrorBound():.3g} of {mesher.GetToleranceUsed():.3g}")  # fmt: skip
     palette = Image.open(files[len(files) // 4]).quantize(24)
     none = Image.Dither.NONE

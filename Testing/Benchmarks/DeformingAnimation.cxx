@@ -2,7 +2,7 @@
 // What a frame of an animation costs, from the deformer over vtkNURBSDeformingTessellator to the
 // picture (vtkOpenGLPolyDataMapper, EGL, 640 x 480 pixels), by phase; prints one JSON line.
 //   DeformingAnimation sheet [--points 253] [--depth 2] ...  a control point of a sheet is dragged
-//   DeformingAnimation lattice FILE [--spacing 0.05] ...     a CAD file in a moving 5 x 5 x 5 lattice
+//   DeformingAnimation lattice FILE [--spacing 0.05] ...  a CAD file in a moving 5 x 5 x 5 lattice
 // Seconds are processor time of the whole process. The tessellator tells its phases by the clock;
 // they are scaled so that its update takes the processor time it took.
 #include "Measuring.h"

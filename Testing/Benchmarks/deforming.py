@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Animations frame by frame: a sheet of 1,000,000 vertices whose control points are dragged, and a
-CAD models in a moving lattice: the model of most faces in Debian's occt-misc, and all STEP files of at
-least 500 faces. occt-misc has no such file: name folders that have, or the report says that none was
-there.
+"""Animations frame by frame: a sheet of 1,000,000 vertices whose control points are dragged, and CAD
+models in a moving lattice: the model of most faces in Debian's occt-misc, and all STEP files of at
+least 500 faces. occt-misc has no such file: name folders that have one, or the report says that none
+was there.
 """
 
 import os
@@ -44,8 +44,7 @@ def faces(file, limit):
 
 
 def choose(options):
-    """Files for the lattice, (number of faces, file): all STEP files of enough faces, and the model of
-    most faces that Debian has."""
+    """(faces, file) of all STEP files of enough faces, and of Debian's model of most faces."""
     files = bench.models(options.folders, options.only)
     counted = [(faces(file, options.limit), file) for file in files]
     wanted = [c for c in counted if c[0] >= FACES and c[1].lower().endswith((".step", ".stp"))]
@@ -75,7 +74,8 @@ def story(done, drawn):
         f"{first['triangles']:,} triangles, {first['picture']:.3g} s for the picture.",
         f"- Tolerance {done['tolerance']:.3g}, error bound of the first frame "
         f"{first['bound']:.3g}, model gap {first['gap']:.3g}.",
-        f"- vtkNURBSTessellator at rest: {first['fresh']:.3g} s, {first['fresh_triangles']:,} triangles.",
+        f"- vtkNURBSTessellator at rest: {first['fresh']:.3g} s, {first['fresh_triangles']:,} "
+        "triangles.",
         f"- Open edges: {first['open_edges']} at rest ({first['fresh_open_edges']} of "
         f"vtkNURBSTessellator's mesh); on {len(done.get('open_edges', []))} of the "
         f"frames, at most {max(done.get('open_edges', [0]))}.",
@@ -117,23 +117,34 @@ def animation(report, title, command, options):
     report.table(["a frame", "mean", "median", "95 %", "largest"], rows)
 
 
-def main():
-    options = bench.arguments(
-        __doc__, limit=600, quick=(False, "60 frames each"), frames=(1000, "after the first"),
-        page=("", "a page whose end is replaced by the tables"),
-    )  # fmt: skip
-    report = bench.Report("deforming", "Animations, frame by frame")
-    sheet = ["sheet", "--points", "253", "--depth"]
-    animation(report, "A sheet of 1,002,001 vertices, its cells as they are", [*sheet, "2"],
+def sheets(report, options):
+    command = ["sheet", "--points", "253", "--depth"]
+    animation(report, "A sheet of 1,002,001 vertices, its cells as they are", [*command, "2"],
               options)  # fmt: skip
-    animation(report, "A sheet refined by tolerance", [*sheet, "-1", "--tolerance", "4.4e-6"],
+    animation(report, "A sheet refined by tolerance", [*command, "-1", "--tolerance", "4.4e-6"],
               options)  # fmt: skip
+
+
+def lattices(report, options):
     wanted, debian = choose(options)
     if not wanted:
         report.text(f"No STEP file of {FACES} faces or more in occt-misc and the folders given.")
     for count, file in [debian, *wanted] if debian else wanted:
         animation(report, f"{os.path.basename(file)}, {count:,} faces, in a lattice of 5 x 5 x 5",
                   ["lattice", file], options)  # fmt: skip
+
+
+def main():
+    options = bench.arguments(
+        __doc__, limit=600, quick=(False, "60 frames each"), frames=(1000, "after the first"),
+        scenes=("sheet,lattice", "what is animated"),
+        page=("", "a page whose end is replaced by the tables"),
+    )  # fmt: skip
+    report = bench.Report("deforming", "Animations, frame by frame")
+    if "sheet" in options.scenes:
+        sheets(report, options)
+    if "lattice" in options.scenes:
+        lattices(report, options)
     status = report.save()
     if options.page:
         report.paste(options.page)
