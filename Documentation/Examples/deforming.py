@@ -65,7 +65,8 @@ def animate(name, deformer, move, tolerance, position, zoom):
         print(f"{name} {frame}: {mesher.GetNumberOfTriangles()} triangles, "
               f"{mesher.GetInsertedVertices()} vertices inserted, "
               f"{mesher.GetDeletedVertices()} deleted, "
-              f"error at most {mesher.GetErrorBound():.3g} of {mesher.GetToleranceUsed():.3g}")  # fmt: skip
+              f"error at most {mesher.GetErrorBound():.3g} of "
+              f"{mesher.GetToleranceUsed():.3g}")  # fmt: skip
     palette = Image.open(files[len(files) // 4]).quantize(24)
     none = Image.Dither.NONE
     pictures = [Image.open(file).quantize(palette=palette, dither=none) for file in files]

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Animations frame by frame: a sheet of 1,000,000 vertices whose control points are dragged, and CAD
-models in a moving lattice: the model of most faces in Debian's occt-misc, and all STEP files of at
-least 500 faces. occt-misc has no such file: name folders that have one, or the report says that none
-was there.
+"""Animations frame by frame: a sheet of 1,000,000 vertices whose control points are dragged, and
+CAD models in a moving lattice: the model of most faces in Debian's occt-misc, and all STEP files of
+at least 500 faces. occt-misc has no such file: name folders that have one, or the report says that
+none was there.
 """
 
 import os
