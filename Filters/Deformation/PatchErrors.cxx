@@ -240,6 +240,17 @@ void NetPath::Start(const BezierNet& net)
   this->Levels.resize(std::max<std::size_t>(this->Levels.size(), 1));
   this->Levels[0] = net.Points;
   this->Made = 0;
+  // Of a Bezier point in those of the product with a linear function, one degree higher.
+  for (int d = 0; d < 2; ++d)
+  {
+    const int degree = d == 0 ? this->P : this->Q;
+    this->Shares[d].clear();
+    for (int i = 0; i <= degree; ++i)
+    {
+      this->Shares[d].push_back((degree + 1.0 - i) / (degree + 1));
+      this->Shares[d].push_back((i + 1.0) / (degree + 1));
+    }
+  }
 }
 
 void NetPath::Pop()
@@ -289,7 +300,11 @@ SecondBound NetPath::Scaled()
     LargestDifferences<false>(points, n, q + 1, this->Steps4, g, w);
     return { p * (p - 1) * g.Uu, p * q * g.Uv, q * (q - 1) * g.Vv };
   }
-  const auto corner = [&](int k) -> Vec4 { return points[k] / points[k][3]; };
+  const auto corner = [&](int k) -> Vec4 {
+    Vec4 place = points[k] / points[k][3];
+    place[3] = 0.0;
+    return place;
+  };
   const Vec4 corners[4] = { corner(0), corner(p), corner(q * n), corner(p + q * n) };
   this->Less.assign(std::size_t(p + 2) * (q + 2), Vec4::Zero());
   double weight = points[0][3];
@@ -303,10 +318,8 @@ SecondBound NetPath::Scaled()
       {
         const int a = k & 1;
         const int b = k >> 1;
-        const double share =
-          (a ? i + 1.0 : p + 1.0 - i) * (b ? j + 1.0 : q + 1.0 - j) / ((p + 1) * (q + 1));
-        Vec4 less = h - h[3] * corners[k];
-        less[3] = h[3];
+        const double share = this->Shares[0][2 * i + a] * this->Shares[1][2 * j + b];
+        const Vec4 less = h - h[3] * corners[k]; // The corners' fourth number is 0: w stays.
         this->Less[i + a + std::size_t(j + b) * (p + 2)] += share * less;
       }
     }

@@ -82,7 +82,8 @@ private:
   bool Rational = false;
   std::vector<Step> Steps;
   std::vector<std::vector<Vec4>> Levels; ///< After so many steps.
-  std::size_t Made = 0;                  ///< The last of them that is that of the present way.
+  std::vector<double> Shares[2];
+  std::size_t Made = 0; ///< The last of them that is that of the present way.
   std::vector<Vec4> Less,
     Steps4; ///< The part less a bilinear surface, with its weights; for memory.
 };

@@ -9,6 +9,7 @@
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSDeformingTessellator.h"
 #include "vtkNURBSEGLRenderWindow.h"
+#include "vtkNURBSMeshMapper.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSShapeSource.h"
@@ -17,7 +18,6 @@
 #include "vtkCamera.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkNew.h"
-#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -71,22 +71,6 @@ double Seconds(const std::function<void()>& work)
   return watch.Read().Elapsed;
 }
 
-// vtkOpenGLPolyDataMapper::BuildIBO appends to a state that it has not cleared, which makes the time of
-// the mesh a part of it: the index buffer is made again whenever points move. This clears it.
-class IndexKeepingMapper : public vtkOpenGLPolyDataMapper
-{
-public:
-  static IndexKeepingMapper* New() { return new IndexKeepingMapper; }
-  vtkTypeMacro(IndexKeepingMapper, vtkOpenGLPolyDataMapper);
-
-protected:
-  void BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* mesh) override
-  {
-    this->TempState.Clear();
-    this->Superclass::BuildIBO(renderer, actor, mesh);
-  }
-};
-
 vtkSmartPointer<vtkMapper> MakeMapper(bool composite, bool keepIndices)
 {
   if (composite)
@@ -95,7 +79,7 @@ vtkSmartPointer<vtkMapper> MakeMapper(bool composite, bool keepIndices)
   }
   if (keepIndices)
   {
-    return vtkSmartPointer<vtkMapper>::Take(IndexKeepingMapper::New());
+    return vtkSmartPointer<vtkNURBSMeshMapper>::New();
   }
   return vtkSmartPointer<vtkPolyDataMapper>::New();
 }

@@ -31,6 +31,7 @@ folders=("$@")
 step pictures.py
 step drawing.py "${fewer[@]}"
 step deformation.py "${fewer[@]}"
+step deforming.py "${fewer[@]}"
 step free_form.py
 step refinement.py
 step ../Peers/compare_with_occt.py --tolerances "$tolerances"
