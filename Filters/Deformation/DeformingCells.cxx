@@ -19,41 +19,57 @@ constexpr double Apart = 1e-12; // Of a cell: vertices on one side.
 
 } // namespace
 
-bool DeformingFace::Adapt(
+void DeformingFace::Adapt(
   const std::function<double(const Vec3&)>& scale, bool everything, double hysteresis)
 {
   this->MergeShare = hysteresis;
+  this->Frozen = this->Options.FixedDepth >= 0;
   const int count = everything ? this->Lines.Patches() : int(this->Touched.size());
   for (int k = 0; k < count; ++k)
   {
     const int index = everything ? k : this->Touched[k];
-    Patch& patch = this->Patches[index];
-    patch.Tolerance = this->Options.Tolerance * scale(this->NetOf(index).Middle());
-    patch.Error = 0.0;
-    patch.Capped = 0;
+    this->Patches[index].Tolerance = this->Options.Tolerance * scale(this->NetOf(index).Middle());
     if (this->Options.FixedDepth >= 0)
     {
       this->HalveEvenly(index);
     }
-    else
-    {
-      thread_local NetPath path; // Kept for its memory.
-      path.Start(this->NetOf(index));
-      const ParameterBox box = this->Lines.Box(index);
-      this->AdaptCell(index, box.A(), box.B(), path);
-    }
-    patch.Recheck = false;
+    this->AdaptPatch(index);
   }
-  return this->HasNewCells();
+}
+
+void DeformingFace::AdaptPatch(int index)
+{
+  Patch& patch = this->Patches[index];
+  patch.Error = 0.0;
+  patch.Capped = 0;
+  thread_local NetPath path; // Kept for its memory.
+  path.Start(this->NetOf(index));
+  const ParameterBox box = this->Lines.Box(index);
+  this->AdaptCell(index, box.A(), box.B(), path);
+  patch.Recheck = false;
+}
+
+void DeformingFace::AdaptLate(bool last)
+{
+  this->Frozen = last;
+  std::sort(this->Late.begin(), this->Late.end());
+  this->Late.erase(std::unique(this->Late.begin(), this->Late.end()), this->Late.end());
+  for (const std::int32_t patch : this->Late)
+  {
+    this->AdaptPatch(patch);
+  }
+  this->Late.clear();
 }
 
 void DeformingFace::HalveEvenly(std::int32_t index)
 {
   const Cell& cell = this->Forest[index];
   const std::uint32_t size = ColumnUnits >> this->Options.FixedDepth;
-  if (cell.Child < 0 && (cell.Width > size || cell.Height > size))
+  const int direction = cell.Width > size ? 0 : 1;
+  if (cell.Child < 0 && (cell.Width > size || cell.Height > size) &&
+    this->CanSplit(index, direction))
   {
-    this->SplitCell(index, cell.Width > size ? 0 : 1);
+    this->SplitCell(index, direction);
   }
   const std::int32_t child = this->Forest[index].Child;
   if (child >= 0)
@@ -79,6 +95,11 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
     this->Forest[index].Low = error + moved;
     return error;
   };
+  if (patch.Recheck)
+  {
+    this->Forest[index].Up = std::numeric_limits<double>::infinity();
+    this->Forest[index].Low = 0.0;
+  }
   const std::int32_t child = this->Forest[index].Child;
   if (child < 0)
   {
@@ -87,17 +108,18 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
     {
       return;
     }
-    if (patch.Recheck || std::isinf(cell.Up) || cell.Up + moved > tolerance)
+    if (cell.Up + moved > tolerance)
     {
       const double error = measure();
-      const int direction = error > tolerance ? this->DirectionOf(index, scaled) : -1;
+      const bool halve = error > tolerance && !this->Frozen;
+      const int direction = halve ? this->DirectionOf(index, scaled) : -1;
       if (direction >= 0)
       {
         this->SplitCell(index, direction);
         this->AdaptHalves(index, a, b, path);
         return;
       }
-      patch.Capped += error > tolerance;
+      patch.Capped += error > tolerance && this->Options.FixedDepth < 0;
     }
     patch.Error = std::max(patch.Error, this->Forest[index].Up + moved);
     return;
@@ -105,7 +127,7 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
   this->AdaptHalves(index, a, b, path);
   const Cell& first = this->Forest[child];
   const Cell& second = this->Forest[child + 1];
-  if (first.Child >= 0 || second.Child >= 0)
+  if (first.Child >= 0 || second.Child >= 0 || this->Frozen)
   {
     return;
   }
@@ -113,8 +135,7 @@ void DeformingFace::AdaptCell(std::int32_t index, double a, double b, NetPath& p
   const double forced = this->Forest[index].ForcedAt;
   const double limit = forced > 0.0 ? std::min(this->MergeShare * tolerance, ForcedShare * forced)
                                     : this->MergeShare * tolerance;
-  if (outside ||
-    ((patch.Recheck || this->Forest[index].Low - moved <= limit) && measure() <= limit))
+  if (outside || (this->Forest[index].Low - moved <= limit && measure() <= limit))
   {
     this->MergeCell(index);
     patch.Error = std::max(patch.Error, outside ? 0.0 : this->Forest[index].Up + moved);
@@ -141,9 +162,9 @@ int DeformingFace::DirectionOf(std::int32_t index, const SecondBound& scaled) co
   const bool twisted = 2.0 * scaled.Uv > scaled.Uu + scaled.Vv;
   const int direction =
     twisted ? (cell.Width >= cell.Height ? 0 : 1) : (scaled.Uu >= scaled.Vv ? 0 : 1);
-  return this->Forest.CanSplit(index, direction)  ? direction
-    : this->Forest.CanSplit(index, 1 - direction) ? 1 - direction
-                                                  : -1;
+  return this->CanSplit(index, direction)  ? direction
+    : this->CanSplit(index, 1 - direction) ? 1 - direction
+                                           : -1;
 }
 
 void DeformingFace::SplitCell(std::int32_t index, int direction)
@@ -200,10 +221,16 @@ void DeformingFace::Force(const CellRequest& request)
     {
       return;
     }
-    const SecondBound second = this->NetOf(this->Forest[index].Patch).Second(box);
+    const std::int32_t patch = this->Forest[index].Patch;
+    const SecondBound second = this->NetOf(patch).Second(box);
     this->Forest[index].ForcedAt =
       std::max(second.Bow(box.A(), box.B()), std::numeric_limits<double>::min());
     this->SplitCell(index, d);
+    const double a = d == 0 ? 0.5 * box.A() : box.A();
+    const double b = d == 1 ? 0.5 * box.B() : box.B();
+    const std::int32_t child = this->Forest[index].Child;
+    this->Forest[child].Up = this->Forest[child + 1].Up =
+      second.Bow(a, b) - this->Patches[patch].Moved.Bow(a, b);
     index = this->Forest.LeafAt(request.I, request.J);
   }
 }
@@ -408,8 +435,8 @@ void DeformingFace::AppendInner(std::uint32_t i0, std::uint32_t j0, std::uint32_
   {
     return;
   }
-  const std::uint32_t i = (i0 + i1) / 2;
-  const std::uint32_t j = (j0 + j1) / 2;
+  const std::uint32_t i = i0 / 2 + i1 / 2; // The sum of large ones does not fit.
+  const std::uint32_t j = j0 / 2 + j1 / 2;
   const std::int32_t point = this->PointAt(i, j);
   if (point >= 0)
   {

@@ -374,13 +374,14 @@ void DeformingEdge::AdaptPiece(
   {
     piece.Child = -1;
     piece.ForcedAt = 0.0;
+    this->LargestError = std::max(this->LargestError, error);
     this->Pieces[child].Free = this->Pieces[child + 1].Free = true;
     this->FreePairs.push_back(child);
     this->PiecesChanged = true;
   }
 }
 
-bool DeformingEdge::Adapt(
+void DeformingEdge::Adapt(
   const Model& model, const Faces& faces, double tolerance, double hysteresis)
 {
   this->LargestError = 0.0;
@@ -388,7 +389,6 @@ bool DeformingEdge::Adapt(
   {
     this->AdaptPiece(model, faces, std::int32_t(k), tolerance, hysteresis);
   }
-  return this->PiecesChanged;
 }
 
 // What the cells along the sides ask for.

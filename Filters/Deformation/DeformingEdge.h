@@ -32,7 +32,6 @@ public:
   DeformingEdge(
     const Model& model, std::int64_t edge, std::vector<DeformingUse> uses, const Faces& faces);
 
-  std::vector<DeformingUse>& Uses() { return this->Where; }
   const std::vector<DeformingUse>& Uses() const { return this->Where; }
   bool IsPole() const { return this->Pole; }
   /// True if some use is not along a side.
@@ -44,8 +43,8 @@ public:
     return this->PieceOf.empty() ? -1 : this->PieceOf[vertex];
   }
 
-  /// Halves and merges pieces by their errors. Returns whether any changed.
-  bool Adapt(const Model& model, const Faces& faces, double tolerance, double hysteresis);
+  /// Halves and merges pieces by their errors.
+  void Adapt(const Model& model, const Faces& faces, double tolerance, double hysteresis);
   bool HasNewPieces() const { return this->PiecesChanged; }
   /// Halves a piece, if it is not very small.
   bool Force(const Model& model, const Faces& faces, std::int32_t piece);

@@ -201,7 +201,7 @@ void DeformingFace::MarkPatches()
 void DeformingFace::SumMove(int index, SecondBound& second, Vec2& first)
 {
   Patch& patch = this->Patches[index];
-  if (this->WeightsMoved)
+  if (this->WeightsMoved || !this->Options.Refine)
   {
     patch.Recheck = true;
     return;
@@ -232,13 +232,13 @@ std::int64_t DeformingFace::Move(const SurfaceView& surface)
   this->MarkPatches();
   SecondBound second;
   Vec2 first = Vec2::Zero();
-  for (std::size_t k = 0; k < this->Touched.size() && this->Options.Refine; ++k)
+  for (const int patch : this->Touched)
   {
-    this->SumMove(this->Touched[k], second, first);
+    this->SumMove(patch, second, first);
   }
   this->SumSecond += second;
   this->SumFirst += first;
-  this->ResetCount += this->WeightsMoved;
+  this->ResetCount += this->WeightsMoved || !(this->Options.Refine || this->Touched.empty());
   this->Surface = surface;
   this->Rational = surface.Weights != nullptr;
   for (const std::int32_t k : this->MovedPoints)

@@ -94,21 +94,25 @@ public:
   /// @param largestMove of a control point.
   /// @param onePlace extent of control points that are all in one place.
   std::string Check(const SurfaceView& surface, double largestMove, double onePlace) const;
-  /// True if the last Compare found any.
-  bool HasMoved() const { return !this->MovedPoints.empty(); }
+  /// True if the last Move changed any vertices.
+  bool HasMoved() const { return !this->Touched.empty(); }
   /// Takes the new control points and updates all vertices that depend on those that moved; returns
   /// how many did. For one thread a face.
   std::int64_t Move(const SurfaceView& surface);
   /// Halves and merges cells of the patches that moved; `scale(place)` times the tolerance is theirs,
-  /// and `hysteresis` times that what merged cells may err by. Returns whether any leaf changed. For
-  /// one thread a face.
-  bool Adapt(const std::function<double(const Vec3&)>& scale, bool everything, double hysteresis);
+  /// and `hysteresis` times that what merged cells may err by. For one thread a face.
+  void Adapt(const std::function<double(const Vec3&)>& scale, bool everything, double hysteresis);
 
   /// Tells whole patches that are outside the loops, whose cells need not be small. To be called once,
   /// with the first loops.
   void ClassifyPatches();
+  /// Adapts patches with cells that were outside the loops until the last Rebuild, or else may err by
+  /// too much. `last`: they are only measured, as nothing will be built any more.
+  void AdaptLate(bool last);
   /// Halves a cell for the zone's sake.
   void Force(const CellRequest& request);
+  /// Takes the same control points in another place.
+  void SetSurface(const SurfaceView& surface) { this->Surface = surface; }
   /// True if cells along a side were halved or merged since the last Rebuild.
   bool HasNewOnSide(int side) const { return this->NewOnSide[side]; }
   bool HasNewCells() const { return !this->Fresh.empty() || !this->Retired.empty(); }
@@ -222,6 +226,7 @@ private:
     std::uint32_t I, J;
     int Side; ///< That starts with it or has it inside; see LoopSegment.
   };
+  void AdaptPatch(int patch);
   void HalveEvenly(std::int32_t cell);
   void AdaptCell(std::int32_t cell, double a, double b, NetPath& path);
   void AdaptHalves(std::int32_t cell, double a, double b, NetPath& path);
@@ -287,7 +292,7 @@ private:
   Vec2 ZoneScale();
   void AddCreases(const std::vector<std::int32_t>& points, Zone& zone) const;
   void CheckZone(RefinementRequests& requests, bool everything);
-  bool RequestFor(std::size_t triangle, RefinementRequests& requests);
+  void RequestFor(std::size_t triangle, RefinementRequests& requests);
 
   const std::int32_t Index;
   MeshSlots& Slots;
@@ -308,12 +313,14 @@ private:
   std::vector<Patch> Patches;
   std::vector<double> CreaseLines[2];
   double MergeShare = 0.5; ///< Of the tolerance, for merged cells.
+  bool Frozen = false;     ///< Cells are measured, and stay.
   SecondBound SumSecond;
   Vec2 SumFirst = Vec2::Zero();
   int ResetCount = 0;
 
   std::vector<std::int32_t> PatchesWithNew;
   std::vector<std::int32_t> Fresh;   ///< New leaves.
+  std::vector<std::int32_t> Late;    ///< Patches for AdaptLate.
   std::vector<std::int32_t> Retired; ///< Cells that are leaves no more.
   std::vector<std::int32_t> RetiredPairs;
   std::vector<std::int32_t> Dirty; ///< Leaves whose triangles have to be made again.

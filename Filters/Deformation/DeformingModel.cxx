@@ -15,7 +15,6 @@ namespace
 
 constexpr int MaximumRounds = 12;    // Of refinement of one frame.
 constexpr int CrossingRounds = 5;    // Of these, of the first frame, for loops that cross.
-constexpr int BudgetRounds = 60;     // Of coarsening.
 constexpr double CoarsenStep = 1.25; // Of the tolerance in a round.
 constexpr double RelaxShare = 0.85;  // Of the budget: below, the tolerance falls again.
 constexpr double OnePlace = 1e-12;   // Of the size: control points in one place.
@@ -62,8 +61,8 @@ void DeformingModel::Adapt(const Viewer* viewer, bool everything, double hystere
   }
 }
 
-// Pieces and vertices of the edges of faces that changed. Returns whether a face has new loops.
-bool DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
+// Pieces and vertices of the edges of faces that changed.
+void DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
 {
   const Model& model = this->Data.Data;
   std::vector<char> concerned(this->Edges.size(), 0);
@@ -101,17 +100,14 @@ bool DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
     }
     this->EdgeChanged[e] = 0;
   }
-  bool any = false;
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     if (loops[f] != 0)
     {
       this->FaceTouched[f] = 1;
       this->MakeLoops(std::int32_t(f), (loops[f] & 2) != 0);
-      any = true;
     }
   }
-  return any;
 }
 
 // The loops of a face, from its edges' vertices.
@@ -171,7 +167,7 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
 // Edges, cells and triangles, until the zones are within the tolerance, too.
 void DeformingModel::Rebuild(const Viewer* viewer)
 {
-  const bool refine = this->Refines();
+  const bool refine = this->Refines() || this->Making;
   for (int round = 0; round < MaximumRounds; ++round)
   {
     this->UpdateEdges(viewer, refine && round == 0);
@@ -205,6 +201,7 @@ void DeformingModel::Rebuild(const Viewer* viewer)
       {
         face->Force(own.Cells[k]);
       }
+      face->AdaptLate(last);
       again = again || face->HasNewCells();
       requests.Pieces.insert(requests.Pieces.end(), own.Pieces.begin(), own.Pieces.end());
       requests.Crossing.insert(requests.Crossing.end(), own.Crossing.begin(), own.Crossing.end());
@@ -227,7 +224,12 @@ void DeformingModel::Share(bool measure)
 {
   const auto move = [&](std::int32_t face, std::int32_t vertex, const Vec3& to, double& gap) {
     const DeformingFace& owner = *this->Faces[face];
-    this->Slots.Point(owner.GetLoopVertex(vertex).Point) = to;
+    const std::int32_t point = owner.GetLoopVertex(vertex).Point;
+    if (this->Slots.Point(point) != to)
+    {
+      this->Slots.Point(point) = to;
+      this->Shared.push_back(point);
+    }
     if (measure)
     {
       gap = std::max(gap, (owner.PlaceOf(vertex) - to).norm());
@@ -323,8 +325,12 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
   const bool open = problem.empty() && this->HasOpenPole(model);
   if (open || !problem.empty())
   {
-    FrameReport refused = this->Report;
+    FrameReport refused;
     refused.Accepted = false;
+    refused.ErrorBound = this->Report.ErrorBound;
+    refused.ModelGap = this->Report.ModelGap;
+    refused.ToleranceUsed = this->Report.ToleranceUsed;
+    refused.CappedCells = this->Report.CappedCells;
     refused.Problem = problem;
     refused.NeedsReplacement = open;
     return refused;
@@ -332,6 +338,7 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
   this->Report = FrameReport();
   this->Report.CompareSeconds = watch.Lap();
   this->Slots.ClearChanges();
+  this->Shared.clear();
   std::vector<std::int64_t> updated(this->Faces.size(), 0);
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
@@ -387,13 +394,15 @@ void DeformingModel::KeepBudget(const Viewer* viewer)
     this->Adapt(viewer, true, this->Options.Hysteresis);
     this->Rebuild(viewer);
   }
-  for (int round = 0; round<BudgetRounds&& this->Slots.Triangles()> budget; ++round)
+  // Beyond, all cells are merged that can be: the budget is too small.
+  const double coarsest = this->Size / this->Options.Tolerance;
+  while (this->Slots.Triangles() > budget && this->Coarsening < coarsest)
   {
     do
     {
       this->Coarsening *= CoarsenStep;
       this->Adapt(viewer, true, 1.0);
-    } while (this->EstimateTriangles() > budget && ++round < BudgetRounds);
+    } while (this->EstimateTriangles() > budget && this->Coarsening < coarsest);
     std::fill(this->FaceTouched.begin(), this->FaceTouched.end(), 1);
     this->Rebuild(viewer);
   }
@@ -453,11 +462,14 @@ std::vector<unsigned char> DeformingModel::ChangedPoints() const
   const MeshSlots::Changes& changes = this->Slots.GetChanges();
   const std::size_t count = std::size_t(this->Slots.Arrays().PointCount);
   std::vector<unsigned char> changed(count, changes.Renumbered ? 1 : 0);
-  for (const std::int32_t point : changes.Added)
+  for (const std::vector<std::int32_t>* points : { &changes.Added, &this->Shared })
   {
-    if (std::size_t(point) < count)
+    for (const std::int32_t point : *points)
     {
-      changed[point] = 1;
+      if (std::size_t(point) < count)
+      {
+        changed[point] = 1;
+      }
     }
   }
   for (const std::unique_ptr<DeformingFace>& face : this->Faces)

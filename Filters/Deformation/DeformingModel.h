@@ -32,12 +32,13 @@ struct DeformingOptions
   double Tolerance = 0.0;  ///< Model units, > 0: bound of the distance of triangles and surface.
   double Hysteresis = 0.5; ///< Cells are merged if that keeps them within this share of it; (0, 1].
   bool Refine = true;      ///< Else the cells of the first frame stay.
-  int FixedDepth = -1;     ///< >= 0: each patch is halved so often in u and v, whatever it errs.
+  /// >= 0, <= 12: each patch is halved so often in u and v, whatever it errs; loops keep the tolerance.
+  int FixedDepth = -1;
   bool KeepCoefficients = true; ///< Of vertices on loops: stored, or computed when needed.
   std::int64_t MemoryLimit = std::int64_t(1) << 30; ///< Bytes of sums, see PatchVertices.h.
-  std::int64_t TriangleBudget = 0;                  ///< 0: none.
-  double LargestMove = 1e6;    ///< Sizes of the model that a control point may move by in a frame.
-  double SideTolerance = -1.0; ///< See CompleteModel.
+  std::int64_t TriangleBudget = 0; ///< 0: none. One too small is kept as nearly as can be.
+  double LargestMove = 1e6;        ///< Sizes of the model that a control point may move by; > 0.
+  double SideTolerance = -1.0;     ///< See CompleteModel.
   ParallelFor Parallel = SerialFor;
 };
 
@@ -65,7 +66,8 @@ class DeformingModel
 public:
   /// Makes the first mesh in `mesh`, which must outlive this and not be changed by others.
   /// @param faceErrors one string a face: "" or why it can't be used (it has no triangles).
-  /// The model's knots and trims must stay valid. Throws Error unless the options are in their ranges.
+  /// The model's knots and trims must stay valid. Throws Error unless the options are in their ranges
+  /// and faces have no more than 65,535 spans in a direction.
   DeformingModel(const Model& model, const std::vector<std::string>& faceErrors,
     const DeformingOptions& options, MeshArrays& mesh);
   ~DeformingModel();
@@ -75,7 +77,7 @@ public:
   /// with all control points of a face in one place, is refused as a whole: the mesh stays.
   FrameReport Update(const Model& model, const Viewer* viewer = nullptr);
   /// Makes the faces that are marked anew, whose knots or trims changed, and keeps the others; the edges
-  /// between them follow. Returns false, and does nothing, if the models' topologies differ: a new
+  /// between them follow. Control points of those that stay are for the next Update. Returns false, and does nothing, if the models' topologies differ: a new
   /// DeformingModel is called for then. Otherwise FirstFrame tells what it did.
   bool Replace(const Model& model, const std::vector<std::string>& faceErrors,
     const std::vector<char>& changed);
@@ -96,14 +98,15 @@ private:
   void MakeFaces(const std::vector<char>& marked, const std::vector<std::string>& faceErrors);
   void MakeFace(std::int32_t face);
   void MakeCorner(std::int32_t face, std::int64_t curve);
-  void MakeEdges(const std::vector<char>& marked);
+  void MakeEdges();
+  void RemoveFaces(const std::vector<char>& marked);
   bool HasOpenPole(const Model& model) const;
   std::string Check(const Model& model) const;
   void Adapt(const Viewer* viewer, bool everything, double hysteresis);
   void KeepBudget(const Viewer* viewer);
   std::int64_t EstimateTriangles() const;
   void Rebuild(const Viewer* viewer);
-  bool UpdateEdges(const Viewer* viewer, bool adapt);
+  void UpdateEdges(const Viewer* viewer, bool adapt);
   void MakeLoops(std::int32_t face, bool inside);
   bool IsTouched(const DeformingEdge& edge) const;
   bool Honour(const RefinementRequests& requests);
@@ -128,8 +131,9 @@ private:
   double BytesOfControl = 0.0; ///< A control point's share of MemoryLimit.
   double Size = 0.0;           ///< Of the first frame's control points.
   bool HadViewer = false;
-  bool Making = true;        ///< The frame makes cells, even if others do not.
-  std::vector<double> GapAt; ///< Of vertices, then of edges: distance of the faces there.
+  bool Making = true;               ///< The frame makes cells, even if others do not.
+  std::vector<std::int32_t> Shared; ///< Points that the frame moved to others'.
+  std::vector<double> GapAt;        ///< Of vertices, then of edges: distance of the faces there.
   FrameReport Report;
   std::vector<double> FaceError;
   std::vector<std::int64_t> FaceCapped;

@@ -14,11 +14,34 @@ namespace
 {
 
 constexpr double SnapDistance = 1e-9; // Of a face's box: corners on its sides.
+constexpr int DeepestFixed = 12;      // As often as cells can be halved.
+constexpr int MostSpans = (1 << (32 - ColumnBits)) - 1;
 
 ParameterBox UsedBox(const Model& model, const Face& face)
 {
   const Box2 box = LoopsBox(model, face);
   return { box.min()[0], box.max()[0], box.min()[1], box.max()[1] };
+}
+
+void CheckOptions(const DeformingOptions& options)
+{
+  const auto check = [](bool good, const std::string& what, double value) {
+    if (!good)
+    {
+      throw Error(what + ", but is " + std::to_string(value));
+    }
+  };
+  check(options.Tolerance > 0.0 && std::isfinite(options.Tolerance),
+    "the tolerance must be positive", options.Tolerance);
+  check(options.Hysteresis > 0.0 && options.Hysteresis <= 1.0,
+    "the hysteresis must be over 0 and at most 1", options.Hysteresis);
+  check(options.FixedDepth <= DeepestFixed,
+    "the fixed depth must be at most " + std::to_string(DeepestFixed), options.FixedDepth);
+  check(
+    options.MemoryLimit >= 0, "the memory limit must not be negative", double(options.MemoryLimit));
+  check(options.TriangleBudget >= 0, "the triangle budget must not be negative",
+    double(options.TriangleBudget));
+  check(options.LargestMove > 0.0, "the largest move must be positive", options.LargestMove);
 }
 
 } // namespace
@@ -31,15 +54,7 @@ DeformingModel::DeformingModel(const Model& model, const std::vector<std::string
     return this->Faces[owner.Face]->FirstTriangle(owner.Cell);
   })
 {
-  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
-  {
-    throw Error("the tolerance must be positive, but is " + std::to_string(options.Tolerance));
-  }
-  if (!(options.Hysteresis > 0.0) || !(options.Hysteresis <= 1.0))
-  {
-    throw Error(
-      "the hysteresis must be over 0 and at most 1, but is " + std::to_string(options.Hysteresis));
-  }
+  CheckOptions(options);
   Stopwatch watch;
   const Model& all = this->Data.Data;
   this->Measure(faceErrors);
@@ -79,11 +94,12 @@ void DeformingModel::Measure(const std::vector<std::string>& faceErrors)
       box.extend(surface.Point(k));
     }
   }
-  this->Size = box.isEmpty() ? 1.0 : box.diagonal().norm();
+  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  this->Size = diagonal > 0.0 ? diagonal : 1.0;
   this->BytesOfControl = double(this->Options.MemoryLimit) / std::max<double>(1.0, controls);
 }
 
-// Makes the faces that are marked, their corners, and all edges that they use.
+// Makes the faces that are marked, their corners, and all edges that there are not.
 void DeformingModel::MakeFaces(
   const std::vector<char>& marked, const std::vector<std::string>& faceErrors)
 {
@@ -95,8 +111,8 @@ void DeformingModel::MakeFaces(
       this->MakeFace(std::int32_t(f));
     }
   }
-  this->MakeEdges(marked);
-  this->UpdateEdges(nullptr, false);
+  this->MakeEdges();
+  this->UpdateEdges(nullptr, true); // Lest patches in a loop's belly count as outside.
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     if (marked[f] && this->Faces[f])
@@ -112,7 +128,7 @@ void DeformingModel::MakeFace(std::int32_t f)
   const Face& face = model.Faces[f];
   FaceOptions options;
   options.Tolerance = this->Options.Tolerance;
-  options.Refine = this->Options.Refine && this->Options.FixedDepth < 0;
+  options.Refine = this->Refines();
   options.FixedDepth = this->Options.FixedDepth;
   options.KeepCoefficients = this->Options.KeepCoefficients;
   options.MaximumSums = std::int64_t(this->BytesOfControl * double(face.Geometry.Size()));
@@ -120,6 +136,15 @@ void DeformingModel::MakeFace(std::int32_t f)
   if (!(used.A() > 0.0 && used.B() > 0.0))
   {
     return;
+  }
+  for (int d = 0; d < 2; ++d)
+  {
+    const int spans = face.Geometry.Count[d] - face.Geometry.Degree[d];
+    if (spans > MostSpans)
+    {
+      throw Error("face " + std::to_string(face.FaceId) + " has " + std::to_string(spans) +
+        (d == 0 ? " spans in u" : " spans in v") + ", more than " + std::to_string(MostSpans));
+    }
   }
   this->Faces[f] =
     std::make_unique<DeformingFace>(face.Geometry, face.Reversed, used, f, this->Slots, options);
@@ -153,12 +178,11 @@ void DeformingModel::MakeCorner(std::int32_t f, std::int64_t c)
   this->CornersAt[vertex].push_back({ f, this->CornerOf[c] });
 }
 
-// All edges that marked faces use.
-void DeformingModel::MakeEdges(const std::vector<char>& marked)
+// All edges that faces use and that there are not.
+void DeformingModel::MakeEdges()
 {
   const Model& model = this->Data.Data;
   std::vector<std::vector<DeformingUse>> uses(model.Edges.size());
-  std::vector<char> wanted(model.Edges.size(), 0);
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
     this->EdgesOf[f].clear();
@@ -179,7 +203,6 @@ void DeformingModel::MakeEdges(const std::vector<char>& marked)
         use.Ends[curve.Reversed ? 0 : 1] = this->CornerOf[next];
         this->UseOf[c] = int(uses[curve.Edge].size());
         uses[curve.Edge].push_back(use);
-        wanted[curve.Edge] = wanted[curve.Edge] || marked[f];
         std::vector<std::int32_t>& edges = this->EdgesOf[f];
         if (std::find(edges.begin(), edges.end(), curve.Edge) == edges.end())
         {
@@ -190,7 +213,7 @@ void DeformingModel::MakeEdges(const std::vector<char>& marked)
   }
   for (std::size_t e = 0; e < uses.size(); ++e)
   {
-    if (wanted[e])
+    if (!this->Edges[e] && !uses[e].empty())
     {
       this->Edges[e] =
         std::make_unique<DeformingEdge>(model, std::int64_t(e), std::move(uses[e]), this->Faces);
@@ -229,6 +252,43 @@ static bool HaveOneTopology(const Model& a, const Model& b)
   return same;
 }
 
+// Removes the faces that are marked, and all edges that they have or will have.
+void DeformingModel::RemoveFaces(const std::vector<char>& marked)
+{
+  const Model& model = this->Data.Data;
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  {
+    const Face& face = model.Faces[f];
+    for (std::int64_t l = face.FirstLoop; marked[f] && l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const TrimLoop& loop = model.Loops[l];
+      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+      {
+        std::unique_ptr<DeformingEdge>& edge = this->Edges[model.TrimCurves[c].Edge];
+        if (edge)
+        {
+          edge->RemoveVertices(this->Faces);
+          edge.reset();
+        }
+      }
+    }
+  }
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  {
+    if (marked[f] && this->Faces[f])
+    {
+      this->Faces[f]->Clear();
+      this->Faces[f].reset();
+    }
+  }
+  for (std::vector<Corner>& corners : this->CornersAt)
+  {
+    corners.erase(std::remove_if(corners.begin(), corners.end(),
+                    [&](const Corner& corner) { return marked[corner.Face] != 0; }),
+      corners.end());
+  }
+}
+
 bool DeformingModel::Replace(
   const Model& model, const std::vector<std::string>& faceErrors, const std::vector<char>& changed)
 {
@@ -242,40 +302,31 @@ bool DeformingModel::Replace(
   {
     return false;
   }
+  Stopwatch watch;
+  this->Report = FrameReport();
   this->Slots.ClearChanges();
-  for (std::size_t e = 0; e < this->Edges.size(); ++e)
-  {
-    const DeformingEdge* edge = this->Edges[e].get();
-    const bool gone = edge &&
-      std::any_of(edge->Uses().begin(), edge->Uses().end(),
-        [&](const DeformingUse& use) { return changed[use.Face] != 0; });
-    if (gone)
-    {
-      this->Edges[e]->RemoveVertices(this->Faces);
-      this->Edges[e].reset();
-    }
-  }
-  for (std::size_t f = 0; f < this->Faces.size(); ++f)
-  {
-    if (changed[f] && this->Faces[f])
-    {
-      this->Faces[f]->Clear();
-      this->Faces[f].reset();
-    }
-  }
-  for (std::vector<Corner>& corners : this->CornersAt)
-  {
-    corners.erase(std::remove_if(corners.begin(), corners.end(),
-                    [&](const Corner& corner) { return changed[corner.Face] != 0; }),
-      corners.end());
-  }
+  this->Shared.clear();
+  this->RemoveFaces(changed);
   this->Data = std::move(next);
   this->Making = true;
-  std::copy(changed.begin(), changed.end(), this->FaceTouched.begin());
+  // What is known of all faces together is found anew.
+  std::fill(this->FaceTouched.begin(), this->FaceTouched.end(), 1);
+  std::fill(this->GapAt.begin(), this->GapAt.end(), 0.0);
+  std::fill(this->FaceError.begin(), this->FaceError.end(), 0.0);
+  std::fill(this->FaceCapped.begin(), this->FaceCapped.end(), 0);
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  {
+    if (this->Faces[f]) // What it refers to may go with the former model.
+    {
+      this->Faces[f]->SetSurface(this->Data.Data.Faces[f].Geometry);
+    }
+  }
   this->MakeFaces(changed, faceErrors);
   this->Adapt(nullptr, true, this->Options.Hysteresis);
   this->Rebuild(nullptr);
+  this->KeepBudget(nullptr);
   this->Finish();
+  this->Report.RebuildSeconds = watch.Lap();
   return true;
 }
 

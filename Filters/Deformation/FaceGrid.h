@@ -53,7 +53,6 @@ public:
 
   /// The index of a line among those of its column; made if it is new.
   int Line(std::uint32_t line);
-  int Lines(int column) const { return int(this->Counts[column]); }
   /// A line's basis functions, Degree() + 1, and then their derivatives.
   const double* Basis(int column, int index) const
   {

@@ -375,7 +375,7 @@ void DeformingFace::CheckZone(RefinementRequests& requests, bool everything)
       const double error = this->Second(triangle.Box).Bow(a, b);
       triangle.Up = error - moved;
       triangle.Resets = this->ResetCount;
-      if (error > tolerance && this->Options.Refine)
+      if (error > tolerance && this->Options.FixedDepth < 0)
       {
         ++this->CappedTriangles;
         this->RequestFor(k, requests);
@@ -393,8 +393,8 @@ double DeformingFace::ToleranceAt(const ParameterBox& box) const
 }
 
 // A triangle is too long, in the direction that it deviates more in, because the cells in it are or the
-// loops' pieces along it. Returns whether there was anything to ask for.
-bool DeformingFace::RequestFor(std::size_t index, RefinementRequests& requests)
+// loops' pieces along it.
+void DeformingFace::RequestFor(std::size_t index, RefinementRequests& requests)
 {
   const ZoneTriangle& triangle = this->Zones[index];
   const ParameterBox& box = triangle.Box;
@@ -441,7 +441,6 @@ bool DeformingFace::RequestFor(std::size_t index, RefinementRequests& requests)
   {
     halve(d);
   }
-  return any;
 }
 
 void DeformingFace::RequestLoops(RefinementRequests& requests) const

@@ -82,12 +82,6 @@ public:
     this->Entries[hole].Key = Free;
   }
 
-  void Clear()
-  {
-    this->Entries.clear();
-    this->Count = 0;
-  }
-
   /// Calls f(value) with a reference to every value.
   template <typename F>
   void ForEach(const F& f)

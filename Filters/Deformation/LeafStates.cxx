@@ -252,6 +252,12 @@ void DeformingFace::Classify(std::int32_t leaf, bool cut, bool inside)
   if (!cell.Built && whole)
   {
     this->Fresh.push_back(leaf);
+    const Patch& patch = this->Patches[cell.Patch];
+    const ParameterBox box = this->Forest.Box(leaf);
+    if (cell.Up + patch.Moved.Bow(box.A(), box.B()) > patch.Tolerance)
+    {
+      this->Late.push_back(cell.Patch);
+    }
   }
   if (cell.Built && whole && this->SidesChanged)
   {

@@ -84,10 +84,6 @@ public:
 
   PointUse& Use(std::int32_t point) { return this->Uses[point]; }
   const PointUse& Use(std::int32_t point) const { return this->Uses[point]; }
-  std::int64_t UsedPoints() const
-  {
-    return std::int64_t(this->Uses.size()) - std::int64_t(this->FreePoints.size());
-  }
   std::int64_t Triangles() const
   {
     return this->TriangleEnd - std::int64_t(this->FreeTriangles.size());

@@ -68,8 +68,8 @@ def story(done, drawn):
     first, phases = done["first"], done["phases"]
     update, fresh = phases["update"], phases.get("fresh")
     lines = [
-        f"- {done['frames']:,} frames; {done['faces']:,} faces, {done['control_points']:,} control "
-        f"points; {done['device']}, drawn {drawn}; at most {done['memory'] / 2**20:.0f} MiB.",
+        f"- {done['frames']:,} frames; faces: {done['faces']:,}; {done['control_points']:,} "
+        f"control points; {done['device']}, drawn {drawn}; at most {done['memory'] / 2**20:.0f} MiB.",
         f"- First frame: {first['mesh']:.3g} s for {first['points']:,} points and "
         f"{first['triangles']:,} triangles, {first['picture']:.3g} s for the picture.",
         f"- Tolerance {done['tolerance']:.3g}, error bound of the first frame "
