@@ -14,8 +14,8 @@ namespace
 {
 
 constexpr double ForcedShare =
-  0.25; // Of the error that a cell was halved at for the zone: to merge.
-constexpr double CornerSnap = 1e-6; // Of a cell: loop vertices that are its corners.
+  0.25;                         // Of the error that a cell was halved at for the zone: to merge.
+constexpr double Apart = 1e-12; // Of a cell: vertices on one side.
 
 } // namespace
 
@@ -441,7 +441,7 @@ void DeformingFace::AppendInner(std::uint32_t i0, std::uint32_t j0, std::uint32_
   if (point >= 0)
   {
     this->AppendInner(i0, j0, i, j, out);
-    out.push_back({ point, i, j });
+    out.push_back({ point, i, j, -1 });
     this->AppendInner(i, j, i1, j1, out);
   }
 }
@@ -458,8 +458,13 @@ void DeformingFace::Boundary(const Cell& cell, std::vector<BoundaryVertex>& out)
     this->Corner(cell, (side + 1) % 4, i1, j1);
     if (!this->IsOnSide(cell, side) || !this->FindChain(cell, side, segments))
     {
-      out.push_back({ cell.Corners[side], i, j });
+      const std::size_t first = out.size();
+      out.push_back({ cell.Corners[side], i, j, side });
       this->AppendInner(i, j, i1, j1, out);
+      for (std::size_t k = first; k < out.size(); ++k)
+      {
+        out[k].Side = side;
+      }
       continue;
     }
     if (side >= 2)
@@ -469,7 +474,7 @@ void DeformingFace::Boundary(const Cell& cell, std::vector<BoundaryVertex>& out)
     for (const std::int32_t s : segments)
     {
       const SideSegment& segment = this->Sides[side][s];
-      out.push_back({ this->LoopVertices[segment.Vertex[side >= 2]].Point, i, j });
+      out.push_back({ this->LoopVertices[segment.Vertex[side >= 2]].Point, i, j, side });
     }
   }
 }
@@ -493,6 +498,27 @@ void DeformingFace::AddTriangle(std::int32_t cell, std::int32_t a, std::int32_t 
   {
     this->Reversed ? this->Slots.AddTriangle({ this->Index, cell }, a, c, b)
                    : this->Slots.AddTriangle({ this->Index, cell }, a, b, c);
+  }
+}
+
+// The vertices of a cell's boundary in the unit square: corners at its corners, the others on the open
+// sides, one after the other, however near they are to each other.
+void DeformingFace::PlaceInSquare(const ParameterBox& box,
+  const std::vector<BoundaryVertex>& boundary, std::vector<Vec2>& places) const
+{
+  static const Vec2 start[4] = { Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1) };
+  static const Vec2 way[4] = { Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1) };
+  places.clear();
+  double last = 0.0;
+  for (std::size_t k = 0; k < boundary.size(); ++k)
+  {
+    const int side = boundary[k].Side;
+    const bool corner = k == 0 || boundary[k - 1].Side != side;
+    const Vec2 uv = this->Slots.UV(boundary[k].Point);
+    const Vec2 place((uv[0] - box.U0) / box.A(), (uv[1] - box.V0) / box.B());
+    const double along = corner ? 0.0 : (place - start[side]).dot(way[side]);
+    last = corner ? 0.0 : std::min(std::max(along, last + Apart), 1.0 - Apart);
+    places.push_back(start[side] + last * way[side]);
   }
 }
 
@@ -538,16 +564,10 @@ void DeformingFace::BuildCell(std::int32_t leaf)
     }
     return;
   }
-  const ParameterBox box = this->Forest.Box(leaf);
-  corners.clear();
+  this->PlaceInSquare(this->Forest.Box(leaf), boundary, corners);
   places.clear();
   for (std::size_t k = 0; k < boundary.size(); ++k)
   {
-    const Vec2 uv = this->Slots.UV(boundary[k].Point);
-    const auto snap = [](double t) {
-      return std::abs(t) < CornerSnap ? 0.0 : std::abs(t - 1.0) < CornerSnap ? 1.0 : t;
-    };
-    corners.emplace_back(snap((uv[0] - box.U0) / box.A()), snap((uv[1] - box.V0) / box.B()));
     places.push_back(point(int(k)));
   }
   for (const std::array<int, 3>& t : TriangulateRectangle(corners, places))

@@ -224,6 +224,7 @@ private:
   {
     std::int32_t Point;
     std::uint32_t I, J;
+    int Side; ///< That starts with it or has it inside; see LoopSegment.
   };
   void AdaptPatch(int patch);
   void HalveEvenly(std::int32_t cell);
@@ -261,6 +262,8 @@ private:
   void Boundary(const Cell& cell, std::vector<BoundaryVertex>& out) const;
   bool IsFlat(std::int32_t a, std::int32_t b, std::int32_t c);
   void AddTriangle(std::int32_t cell, std::int32_t a, std::int32_t b, std::int32_t c);
+  void PlaceInSquare(const ParameterBox& box, const std::vector<BoundaryVertex>& boundary,
+    std::vector<Vec2>& places) const;
   void BuildCell(std::int32_t leaf);
 
   // LeafStates.cxx: which cells the loops leave whole. FaceZone.cxx: the zone.
