@@ -21,7 +21,8 @@ using namespace nurbs;
 namespace
 {
 
-constexpr double FastShare = 0.02; // Of the polygons, as in the paper's section 6.
+constexpr double FastShare = 0.02;      // Of the polygons, as in the paper's section 6.
+constexpr double FarthestReach = 100.0; // Steps of the control points.
 
 struct Arguments
 {
@@ -128,7 +129,8 @@ void Lengthen(Contestant& c, const Surface& start, double share)
 {
   const auto& rival = dynamic_cast<IncrementalRival&>(*c.Rival);
   const double most = 1.25 * double(rival.Triangles());
-  while (ChangedPolygons(c, start) < share && double(rival.Triangles()) < most)
+  while (c.Reach < FarthestReach && ChangedPolygons(c, start) < share &&
+    double(rival.Triangles()) < most)
   {
     c.Reach *= 1.25;
   }
