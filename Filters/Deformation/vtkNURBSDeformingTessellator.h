@@ -28,7 +28,7 @@
  *   of the last frame |
  * | field data | ChangedPointRange (id type, 2) | first and last point with Changed; -1, -1: none |
  * | field data | ChangedTriangleRange (id type, 2) | likewise of triangles whose corners changed |
- * | field data | ErrorBound (double) | bound of the distance of triangles and surfaces |
+ * | field data | ErrorBound (double) | bound of the distance of triangles and surfaces, ModelGap in it |
  * | field data | ModelGap (double) | largest distance of faces at the vertices of a shared edge |
  * | field data | ToleranceUsed (double) | of patches that count in full, see TriangleBudget |
  * | field data | NumberOfTriangles (id type) | |

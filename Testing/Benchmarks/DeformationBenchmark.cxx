@@ -21,7 +21,9 @@ using namespace nurbs;
 namespace
 {
 
-constexpr double FastShare = 0.02; // Of the polygons, as in the paper's section 6.
+constexpr double FastShare = 0.02;            // Of the polygons, as in the paper's section 6.
+constexpr std::int64_t MostRefined = 1000000; // Vertices: a face has no more cells.
+constexpr double FarthestReach = 100.0;       // Steps of the control points.
 
 struct Arguments
 {
@@ -128,7 +130,8 @@ void Lengthen(Contestant& c, const Surface& start, double share)
 {
   const auto& rival = dynamic_cast<IncrementalRival&>(*c.Rival);
   const double most = 1.25 * double(rival.Triangles());
-  while (ChangedPolygons(c, start) < share && double(rival.Triangles()) < most)
+  while (c.Reach < FarthestReach && ChangedPolygons(c, start) < share &&
+    double(rival.Triangles()) < most)
   {
     c.Reach *= 1.25;
   }
@@ -163,7 +166,7 @@ nlohmann::json BandwidthToJson(std::size_t bytes)
   return { { "bytes", bytes }, { "copy", b.Copy }, { "modify", b.Modify } };
 }
 
-std::vector<Contestant> Contestants(const Arguments& a)
+std::vector<Contestant> Contestants(const Arguments& a, const SampleGrid& grid)
 {
   std::vector<Contestant> all;
   const auto add = [&](const char* key, std::unique_ptr<DeformationRival> rival) {
@@ -179,8 +182,11 @@ std::vector<Contestant> Contestants(const Arguments& a)
   {
     add("occt", std::make_unique<OcctDeformationRival>());
   }
-  add("refined", std::make_unique<IncrementalRival>(true));
-  add("refined_far", std::make_unique<IncrementalRival>(true));
+  if (grid.Count() < MostRefined)
+  {
+    add("refined", std::make_unique<IncrementalRival>(true));
+    add("refined_far", std::make_unique<IncrementalRival>(true));
+  }
   add("increments", std::make_unique<IncrementalRival>(false));
   add("full", MakeGridRival());
   add("local", MakeLocalGridRival());
@@ -199,7 +205,7 @@ nlohmann::json Run(const Arguments& a)
     const std::array<int, 2> range = grid.Support(sheet, dir, s);
     touched *= range[1] - range[0];
   }
-  std::vector<Contestant> all = Contestants(a);
+  std::vector<Contestant> all = Contestants(a, grid);
   for (Contestant& c : all)
   {
     const measuring::Stopwatch stopwatch;

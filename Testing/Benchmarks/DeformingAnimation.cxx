@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a frame of an animation costs, from the deformer over vtkNURBSDeformingTessellator to the
-// picture (vtkOpenGLPolyDataMapper, EGL, 640 x 480 pixels), by phase; prints one JSON line.
+// picture (vtkNURBSMeshMapper, EGL, 640 x 480 pixels), by phase; prints one JSON line.
 //   DeformingAnimation sheet [--points 253] [--depth 2] ...  a control point of a sheet is dragged
 //   DeformingAnimation lattice FILE [--spacing 0.05] ...  a CAD file in a moving 5 x 5 x 5 lattice
 // Seconds are processor time of the whole process. The tessellator tells its phases by the clock;
@@ -20,8 +20,8 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
+#include "vtkNURBSMeshMapper.h"
 #include "vtkNew.h"
-#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -152,12 +152,12 @@ private:
   vtkNew<vtkNURBSFreeFormDeformation> Bend;
 };
 
-/// VTK's mapper, which tells how long it takes to fill its vertex and its index buffers.
-class TimedMapper : public vtkOpenGLPolyDataMapper
+/// The mapper, which tells how long it takes to fill its vertex and its index buffers.
+class TimedMapper : public vtkNURBSMeshMapper
 {
 public:
   static TimedMapper* New() { return new TimedMapper; }
-  vtkTypeMacro(TimedMapper, vtkOpenGLPolyDataMapper);
+  vtkTypeMacro(TimedMapper, vtkNURBSMeshMapper);
   double BufferSeconds = 0.0; ///< Of both.
   double IndexSeconds = 0.0;
 
