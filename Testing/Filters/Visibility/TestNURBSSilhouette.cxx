@@ -375,10 +375,7 @@ TEST(NURBSSilhouette, CADFiles)
       }
     }
   }
-  if (tested == 0)
-  {
-    GTEST_SKIP() << "no file in " << folder;
-  }
+  EXPECT_GT(tested, 0) << "no file in " << folder << "; ./run installs Debian's occt-misc";
 }
 
 TEST(NURBSSilhouette, BadInputIsTold)
