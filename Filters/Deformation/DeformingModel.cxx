@@ -331,6 +331,7 @@ FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
     refused.ModelGap = this->Report.ModelGap;
     refused.ToleranceUsed = this->Report.ToleranceUsed;
     refused.CappedCells = this->Report.CappedCells;
+    refused.CrossingFaces = this->Report.CrossingFaces;
     refused.Problem = problem;
     refused.NeedsReplacement = open;
     return refused;
@@ -420,6 +421,7 @@ void DeformingModel::SumErrors()
     }
     this->Report.ErrorBound = std::max(this->Report.ErrorBound, this->FaceError[f]);
     this->Report.CappedCells += this->FaceCapped[f];
+    this->Report.CrossingFaces += this->Faces[f] && this->Faces[f]->HasCrossingLoops();
   }
   for (const std::unique_ptr<DeformingEdge>& edge : this->Edges)
   {

@@ -54,7 +54,9 @@ struct FrameReport
   std::int64_t FirstTriangle = -1, LastTriangle = -1; ///< That changed; -1: none.
   double ErrorBound = 0.0; ///< Model units; without Refine: of the frame in which cells were made.
   double ModelGap = 0.0;   ///< Largest distance between faces at the vertices of shared edges.
-  double ToleranceUsed = 0.0;   ///< Of a patch that counts in full: larger if there is a budget.
+  double ToleranceUsed = 0.0; ///< Of a patch that counts in full: larger if there is a budget.
+  std::int64_t CrossingFaces =
+    0; ///< Whose loops' polylines cross: their mesh may lack or exceed parts.
   std::int64_t CappedCells = 0; ///< That err by more and are as small as cells become.
   double CompareSeconds = 0.0, MoveSeconds = 0.0, AdaptSeconds = 0.0, RebuildSeconds = 0.0;
 };
@@ -85,6 +87,8 @@ public:
   const FrameReport& FirstFrame() const { return this->Report; }
   /// True for points that the last frame moved or added; one a point of the mesh.
   std::vector<unsigned char> ChangedPoints() const;
+  /// Why a face has no triangles although it was given without an error; one a face, "" if it has.
+  const std::vector<std::string>& FaceProblems() const { return this->Problems; }
   std::int64_t BytesOfSums() const;
   const DeformingFace* GetFace(std::int64_t face) const { return this->Faces[face].get(); }
 
@@ -135,6 +139,7 @@ private:
   std::vector<std::int32_t> Shared; ///< Points that the frame moved to others'.
   std::vector<double> GapAt;        ///< Of vertices, then of edges: distance of the faces there.
   FrameReport Report;
+  std::vector<std::string> Problems;
   std::vector<double> FaceError;
   std::vector<std::int64_t> FaceCapped;
 };

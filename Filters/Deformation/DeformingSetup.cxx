@@ -61,6 +61,7 @@ DeformingModel::DeformingModel(const Model& model, const std::vector<std::string
   this->Faces.resize(all.Faces.size());
   this->FaceError.assign(all.Faces.size(), 0.0);
   this->FaceCapped.assign(all.Faces.size(), 0);
+  this->Problems.resize(all.Faces.size());
   this->Edges.resize(all.Edges.size());
   this->EdgesOf.resize(all.Faces.size());
   this->CornerOf.assign(all.TrimCurves.size(), -1);
@@ -133,18 +134,20 @@ void DeformingModel::MakeFace(std::int32_t f)
   options.KeepCoefficients = this->Options.KeepCoefficients;
   options.MaximumSums = std::int64_t(this->BytesOfControl * double(face.Geometry.Size()));
   const ParameterBox used = UsedBox(model, face);
-  if (!(used.A() > 0.0 && used.B() > 0.0))
-  {
-    return;
-  }
+  std::string& problem = this->Problems[f];
+  problem = used.A() > 0.0 && used.B() > 0.0 ? "" : "its loops enclose no area";
   for (int d = 0; d < 2; ++d)
   {
     const int spans = face.Geometry.Count[d] - face.Geometry.Degree[d];
     if (spans > MostSpans)
     {
-      throw Error("face " + std::to_string(face.FaceId) + " has " + std::to_string(spans) +
-        (d == 0 ? " spans in u" : " spans in v") + ", more than " + std::to_string(MostSpans));
+      problem = std::to_string(spans) + (d == 0 ? " spans in u" : " spans in v") + ", more than " +
+        std::to_string(MostSpans);
     }
+  }
+  if (!problem.empty())
+  {
+    return;
   }
   this->Faces[f] =
     std::make_unique<DeformingFace>(face.Geometry, face.Reversed, used, f, this->Slots, options);
@@ -296,7 +299,8 @@ bool DeformingModel::Replace(
   bool fits = HaveOneTopology(this->Data.Data, next.Data);
   for (std::size_t f = 0; fits && f < this->Faces.size(); ++f)
   {
-    fits = changed[f] || faceErrors[f].empty() == (this->Faces[f] != nullptr);
+    const bool given = this->Faces[f] != nullptr || !this->Problems[f].empty();
+    fits = changed[f] || faceErrors[f].empty() == given;
   }
   if (!fits)
   {

@@ -144,6 +144,8 @@ double vtkNURBSDeformingOutput::Tell(
   count("UpdatedVertices", report.UpdatedVertices);
   count("InsertedVertices", report.InsertedVertices);
   count("DeletedVertices", report.DeletedVertices);
+  count("CappedCells", report.CappedCells);
+  count("CrossingFaces", report.CrossingFaces);
   count("NumberOfTriangles", this->Store.TriangleCount);
   const vtkIdType triangles[2] = { report.FirstTriangle, report.LastTriangle };
   AddRange(field, "ChangedPointRange", this->ChangedRange);

@@ -243,10 +243,10 @@ void vtkNURBSDeformingTessellator::SetDiagonal(const Frame& frame)
 }
 
 // Collects what is wrong with a new model's faces for the warning.
-void vtkNURBSDeformingTessellator::NoteFaceErrors(Frame& frame, std::size_t k)
+void vtkNURBSDeformingTessellator::NoteFaceErrors(
+  Frame& frame, std::size_t k, const std::vector<std::string>& errors)
 {
   const vtkNURBSModelPool::Block& block = frame.Blocks[k];
-  const std::vector<std::string>& errors = frame.Fresh[k]->Source->GetFaceErrors();
   for (std::size_t f = 0; f < errors.size(); ++f)
   {
     if (!errors[f].empty() && ++frame.BadFaces <= MaxNamedFaces)
@@ -273,7 +273,7 @@ vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::MakeLeaf(
                                                     : "no face can be used: " + errors[0]));
     return NOTHING;
   }
-  this->NoteFaceErrors(frame, k);
+  this->NoteFaceErrors(frame, k, errors);
   const double share = double(ControlPoints(leaf.Source->GetModel())) / double(frame.Controls);
   nurbs::DeformingOptions options = frame.Options;
   options.Tolerance =
@@ -285,6 +285,7 @@ vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::MakeLeaf(
   options.SideTolerance = this->JoinSides ? SameSide * this->Diagonal : -1.0;
   leaf.Kernel = std::make_unique<nurbs::DeformingModel>(
     leaf.Source->GetModel(), errors, options, leaf.Output.GetStore());
+  this->NoteFaceErrors(frame, k, leaf.Kernel->FaceProblems());
   leaf.Report = leaf.Kernel->FirstFrame();
   if (frame.HasViewer)
   {
@@ -325,7 +326,8 @@ vtkNURBSDeformingTessellator::Deed vtkNURBSDeformingTessellator::ReplaceFaces(
       return this->MakeLeaf(frame, k);
     }
     replaced = leaf.Kernel->FirstFrame();
-    this->NoteFaceErrors(frame, k);
+    this->NoteFaceErrors(frame, k, source->GetFaceErrors());
+    this->NoteFaceErrors(frame, k, leaf.Kernel->FaceProblems());
     this->ReplacedFaces += vtkIdType(count);
     leaf.Former.push_back(std::move(leaf.Source));
     leaf.Source = std::move(source);
@@ -456,6 +458,8 @@ void vtkNURBSDeformingTessellator::Summarize()
     this->NumberOfTriangles += leaf->Output.GetStore().TriangleCount;
     this->NumberOfPoints += leaf->Output.GetStore().PointCount;
     this->ErrorBound = std::max(this->ErrorBound, report.ErrorBound);
+    this->CappedCells += report.CappedCells;
+    this->CrossingFaces += report.CrossingFaces;
     this->ModelGap = std::max(this->ModelGap, report.ModelGap);
     this->ToleranceUsed = std::max(this->ToleranceUsed, report.ToleranceUsed);
     this->CompareSeconds += report.CompareSeconds;
@@ -475,6 +479,13 @@ bool vtkNURBSDeformingTessellator::Complain(const Frame& frame)
                            ? "\n  and " + std::to_string(frame.BadFaces - MaxNamedFaces) + " more"
                            : ""));
   }
+  if (this->CrossingFaces > this->ToldCrossing)
+  {
+    vtkWarningMacro(<< this->CrossingFaces
+                    << " faces have loops whose polylines cross there: their "
+                    << "triangles may lack or exceed parts");
+  }
+  this->ToldCrossing = this->CrossingFaces;
   if (!frame.Problems.empty())
   {
     std::string text;
@@ -493,6 +504,7 @@ void vtkNURBSDeformingTessellator::ClearResults()
   this->InsertedVertices = this->DeletedVertices = 0;
   this->NumberOfTriangles = this->NumberOfPoints = 0;
   this->RebuiltModels = this->ReplacedFaces = this->RefusedModels = 0;
+  this->CappedCells = this->CrossingFaces = 0;
   this->ErrorBound = this->ModelGap = this->ToleranceUsed = 0.0;
   this->CompareSeconds = this->MoveSeconds = this->AdaptSeconds = 0.0;
   this->RebuildSeconds = this->OutputSeconds = 0.0;
@@ -571,6 +583,8 @@ void vtkNURBSDeformingTessellator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RebuiltModels: " << this->RebuiltModels << "\n";
   os << indent << "ReplacedFaces: " << this->ReplacedFaces << "\n";
   os << indent << "RefusedModels: " << this->RefusedModels << "\n";
+  os << indent << "CappedCells: " << this->CappedCells << "\n";
+  os << indent << "CrossingFaces: " << this->CrossingFaces << "\n";
   os << indent << "ErrorBound: " << this->ErrorBound << "\n";
   os << indent << "ModelGap: " << this->ModelGap << "\n";
   os << indent << "ToleranceUsed: " << this->ToleranceUsed << "\n";

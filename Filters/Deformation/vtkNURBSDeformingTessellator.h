@@ -28,6 +28,8 @@
  *   of the last frame |
  * | field data | ChangedPointRange (id type, 2) | first and last point with Changed; -1, -1: none |
  * | field data | ChangedTriangleRange (id type, 2) | likewise of triangles whose corners changed |
+ * | field data | CappedCells (id type) | cells that err by more and are as small as cells become |
+ * | field data | CrossingFaces (id type) | faces whose loops' polylines cross; a warning tells of new ones |
  * | field data | ErrorBound (double) | bound of the distance of triangles and surfaces, ModelGap in it |
  * | field data | ModelGap (double) | largest distance of faces at the vertices of a shared edge |
  * | field data | ToleranceUsed (double) | of patches that count in full, see TriangleBudget |
@@ -260,6 +262,8 @@ public:
   vtkGetMacro(RebuiltModels, vtkIdType);
   vtkGetMacro(ReplacedFaces, vtkIdType);
   vtkGetMacro(RefusedModels, vtkIdType);
+  vtkGetMacro(CappedCells, vtkIdType);
+  vtkGetMacro(CrossingFaces, vtkIdType);
   vtkGetMacro(ErrorBound, double);
   vtkGetMacro(ModelGap, double);
   vtkGetMacro(ToleranceUsed, double);
@@ -298,7 +302,7 @@ private:
     FOLLOWED,
     MADE
   };
-  void NoteFaceErrors(Frame& frame, std::size_t k);
+  void NoteFaceErrors(Frame& frame, std::size_t k, const std::vector<std::string>& errors);
   Deed MakeLeaf(Frame& frame, std::size_t k);
   Deed ReplaceFaces(Frame& frame, std::size_t k);
   Deed FollowLeaf(Frame& frame, std::size_t k);
@@ -337,6 +341,8 @@ private:
   vtkIdType RebuiltModels = 0;
   vtkIdType ReplacedFaces = 0;
   vtkIdType RefusedModels = 0;
+  vtkIdType CappedCells = 0;
+  vtkIdType CrossingFaces = 0, ToldCrossing = 0;
   double ErrorBound = 0.0;
   double ModelGap = 0.0;
   double ToleranceUsed = 0.0;

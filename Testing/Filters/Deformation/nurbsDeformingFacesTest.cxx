@@ -318,4 +318,55 @@ TEST(DeformingFaces, TakesModelsWithoutUsableFaces)
   EXPECT_EQ(mesh.PointCount, 0);
 }
 
+// A face that nothing can be made of is told; the others come out.
+TEST(DeformingFaces, TellsOfFacesWithoutArea)
+{
+  MovableModel model;
+  shapes::AddBall(model.Builder, true);
+  shapes::AddHoles(model.Builder);
+  model.Make();
+  nurbs::Model flat = model.Model;
+  // The loop of the first patch is on a line of its domain.
+  const double points[6] = { 0.0, 0.5, 1.0, 1.0, 0.5, 1.0 };
+  const nurbs::Face& face = flat.Faces[0];
+  const nurbs::TrimLoop& loop = flat.Loops[face.FirstLoop];
+  for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+  {
+    flat.TrimCurves[c].Geometry.Points = points;
+    flat.TrimCurves[c].Geometry.Count = 2;
+    flat.TrimCurves[c].Geometry.Degree = 1;
+  }
+  nurbs::DeformingOptions options;
+  options.Tolerance = 0.02;
+  nurbs::MeshVectors mesh;
+  nurbs::DeformingModel deforming(flat, model.Errors(), options, mesh);
+  EXPECT_NE(deforming.FaceProblems()[0].find("no area"), std::string::npos);
+  EXPECT_EQ(shapes::ParameterArea(mesh, 0), 0.0);
+  for (std::size_t f = 1; f < flat.Faces.size(); ++f)
+  {
+    EXPECT_EQ(deforming.FaceProblems()[f], "");
+    EXPECT_GT(shapes::ParameterArea(mesh, f), 0.0);
+  }
+}
+
+// Two circles that cross in the parameters: the frame says so.
+TEST(DeformingFaces, TellsOfLoopsThatCross)
+{
+  MovableModel model;
+  shapes::AddSheet(model.Builder, 3, 0.5);
+  const nurbs::Curve<2> outer = nurbs::TrimCircle(Vec2(0.4, 0.5), 0.2);
+  const nurbs::Curve<2> other = nurbs::TrimCircle(Vec2(0.6, 0.5), 0.2);
+  for (const nurbs::Curve<2>* circle : { &outer, &other })
+  {
+    model.Builder.BeginLoop();
+    model.Builder.AddTrimCurve(circle->View(), -1, false);
+  }
+  model.Make();
+  nurbs::DeformingOptions options;
+  options.Tolerance = 0.02;
+  nurbs::MeshVectors mesh;
+  const nurbs::DeformingModel deforming(model.Model, model.Errors(), options, mesh);
+  EXPECT_EQ(deforming.FirstFrame().CrossingFaces, 1);
+}
+
 } // namespace
