@@ -27,7 +27,7 @@ load_plugin()
 load_plugin()
 reader = updated(simple.OpenDataFile(LINKRODS))
 assert reader.GetXMLName() == "NURBSCADReader", reader.GetXMLName()
-assert reader.GetDataInformation().GetCompositeDataSetClassName() == (
+assert reader.GetDataInformation().GetCompositeDataClassName() == (
     "vtkPartitionedDataSetCollection"
 )
 assert size(reader)[0] == 37

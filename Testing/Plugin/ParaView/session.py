@@ -10,7 +10,7 @@ import paraview
 
 paraview.compatibility.major, paraview.compatibility.minor = 5, 11
 
-from paraview import servermanager, simple  # noqa: E402
+from paraview import simple  # noqa: E402
 
 LINKRODS = "/usr/share/opencascade/data/step/linkrods.step"
 SCREW = "/usr/share/opencascade/data/step/screw.step"
@@ -54,7 +54,7 @@ def size(proxy, port=0):
 
 def leaves(proxy, port=0):
     """The data sets of an output."""
-    data = servermanager.Fetch(servermanager.OutputPort(proxy, port))
+    data = proxy.GetClientSideObject().GetOutputDataObject(port)
     if not data.IsA("vtkCompositeDataSet"):
         return [data]
     found = []
