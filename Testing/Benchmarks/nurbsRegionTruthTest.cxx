@@ -140,12 +140,12 @@ TEST(AreaByLines, SphereAndCap)
   const auto half = truth::ImageView::Parallel(scene.Caster.Bounds(), Vec3(1, -2, 0.5));
   EXPECT_NEAR(
     truth::AreaByLines(scene.Caster, 0, half, 60, 12, nurbs::SerialFor) / (2.0 * Pi * 1.5 * 1.5),
-    1.0, 1e-4);
+    1.0, 5e-4);
   const Vec3 away(1, 4, -1);
   const auto cap = truth::ImageView::FromEye(scene.Caster.Bounds(), Vec3(1, 2, 3) + away);
   EXPECT_NEAR(truth::AreaByLines(scene.Caster, 0, cap, 60, 12, nurbs::SerialFor) /
       (2.0 * Pi * 1.5 * 1.5 * (1.0 - 1.5 / away.norm())),
-    1.0, 1e-4);
+    1.0, 5e-4);
 }
 
 TEST(AreaByLines, ToriThatHideEachOther)
