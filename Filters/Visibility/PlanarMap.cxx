@@ -23,9 +23,10 @@ namespace
 __extension__ using Wide = __int128;
 using Plane = CGAL::Simple_cartesian<double>;
 
-// Points of the grid are doubles without a fraction. Differences are at most 2^30, so an orientation
-// is at most 2^61, and the determinant of a circle at most 3 * 2^122: exact in 64 and 128 bits. Grids
-// have many points on one circle, where CGAL's own filters would fail and its slow arithmetic run.
+// Points of the grid are doubles without a fraction. Differences are at most 2^30, so an
+// orientation is at most 2^61, and the determinant of a circle at most 3 * 2^122: exact in 64 and
+// 128 bits. Grids have many points on one circle, where CGAL's own filters would fail and its slow
+// arithmetic run.
 struct GridDifference
 {
   GridDifference(const Plane::Point_2& p, const Plane::Point_2& from)
@@ -211,11 +212,11 @@ private:
     std::partial_sum(this->FirstEdge.begin(), this->FirstEdge.end(), this->FirstEdge.begin());
   }
 
-  // Edges in the order of their places can each cut through nearly all triangles; in a random one, few
-  // do (J. R. Shewchuk, B. C. Brown, "Fast segment insertion and incremental construction of
-  // constrained Delaunay triangulations", 2015). Random rounds, each twice as large as the one before
-  // and in the order of places, are as good and keep memory near (N. Amenta, S. Choi, G. Rote,
-  // "Incremental constructions con BRIO", 2003).
+  // Edges in the order of their places can each cut through nearly all triangles; in a random one,
+  // few do (J. R. Shewchuk, B. C. Brown, "Fast segment insertion and incremental construction of
+  // constrained Delaunay triangulations", 2015). Random rounds, each twice as large as the one
+  // before and in the order of places, are as good and keep memory near (N. Amenta, S. Choi, G.
+  // Rote, "Incremental constructions con BRIO", 2003).
   void SortForInsertion(std::vector<std::size_t>& edges) const
   {
     constexpr std::size_t Smallest = 64;
@@ -232,7 +233,8 @@ private:
     }
   }
 
-  // CGAL turns around the first vertex to find its way, which is better not the one with many edges.
+  // CGAL turns around the first vertex to find its way, which is better not the one with many
+  // edges.
   void InsertEdge(std::size_t edge)
   {
     std::array<std::int32_t, 2> ends = this->Segments.Edges[edge];

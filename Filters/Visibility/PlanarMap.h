@@ -3,20 +3,18 @@
 /// @brief The cells into which snapped segments divide the plane.
 ///
 /// A cell is a connected component of the plane without the edges; it may have holes, and edges may
-/// end in it. Cells come from a constrained Delaunay triangulation (CGAL, with predicates of our own
-/// that are exact on the grid): triangles that share an edge which is not a segment's are in one cell.
-/// All lengths are in pixels.
+/// end in it. Cells come from a constrained Delaunay triangulation (CGAL, with predicates of our
+/// own that are exact on the grid): triangles that share an edge which is not a segment's are in
+/// one cell. All lengths are in pixels.
 #pragma once
 
 #include "SnapRounding.h"
 
-#include <array>
-
 namespace nurbs
 {
 
-/// A point well inside a cell: no edge comes nearer than the radius. Positions are rounded to doubles,
-/// which matters for radii below 1e-6 at coordinates of 2^29.
+/// A point well inside a cell: no edge comes nearer than the radius. Positions are rounded to
+/// doubles, which matters for radii below 1e-6 at coordinates of 2^29.
 struct PlanarSample
 {
   Vec2 Point = Vec2::Zero();
@@ -29,8 +27,8 @@ struct PlanarMap
   std::int32_t CellCount = 0;
   /// For each edge the cell to the left and to the right of its way from Start to End.
   std::vector<std::array<std::int32_t, 2>> Sides;
-  /// A sample near the middle of the edge, on each side: the incircle of the triangle there, or, where
-  /// the convex hull ends, the circle of radius 1 that touches the middle.
+  /// A sample near the middle of the edge, on each side: the incircle of the triangle there, or,
+  /// where the convex hull ends, the circle of radius 1 that touches the middle.
   std::vector<std::array<PlanarSample, 2>> SideSamples;
   /// Area of each cell without its holes; infinity for cell 0.
   std::vector<double> Areas;

@@ -52,7 +52,8 @@ void Append(
   pairs.insert(pairs.end(), more.begin(), more.end());
 }
 
-// Cells by their loops. The half-edge 2 e runs along the edge e, 2 e + 1 back; a cell is on its left.
+// Cells by their loops. The half-edge 2 e runs along the edge e, 2 e + 1 back; a cell is on its
+// left.
 class LoopReference
 {
 public:
