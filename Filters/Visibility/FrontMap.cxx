@@ -24,55 +24,53 @@ constexpr double NearSlope = 8.0;
 // as far may be: on both sides of a silhouette the distances are about the same.
 constexpr double SameSheet = 4.0;
 
-// The segments of all lines that count.
-void AddSegments(const ViewLines& lines, FrontMap& map, std::vector<GridPoint>& points,
-  std::vector<GridSegment>& segments)
+// The segments of all parts.
+void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
+  std::vector<GridPoint>& points, std::vector<GridSegment>& segments)
 {
-  map.FirstSegment.assign(1, 0);
-  for (const ViewLine& line : lines.Lines)
+  map.FirstSegment.assign(lines.Lines.size() + 1, 0);
+  for (const LinePart& part : parts)
   {
-    if (!line.IsBehind)
+    const ViewLine& line = lines.Lines[part.Line];
+    const auto addPoint = [&](LinePosition at) {
+      const Vec2 grid = (ImageAt(line, at) - map.Center) / map.Pixel;
+      points.push_back({ std::llround(grid[0]), std::llround(grid[1]) });
+    };
+    addPoint(part.From);
+    for (LinePosition at = part.From; at < part.To;)
     {
-      for (std::size_t k = 0; k < line.Image.size(); ++k)
-      {
-        const Vec2 grid = (line.Image[k] - map.Center) / map.Pixel;
-        points.push_back({ std::llround(grid[0]), std::llround(grid[1]) });
-        if (k > 0)
-        {
-          const auto last = std::int32_t(points.size() - 1);
-          segments.push_back({ last - 1, last });
-        }
-      }
+      const LinePosition next = std::min(part.To, std::floor(at) + 1.0);
+      addPoint(next);
+      const auto last = std::int32_t(points.size() - 1);
+      segments.push_back({ last - 1, last });
+      map.Segments.push_back({ part.Line, at, next });
+      ++map.FirstSegment[part.Line + 1];
+      at = next;
     }
-    map.FirstSegment.push_back(std::int64_t(segments.size()));
   }
+  std::partial_sum(map.FirstSegment.begin(), map.FirstSegment.end(), map.FirstSegment.begin());
 }
 
 // Which lines run along which edge.
-void CollectSources(const ViewLines& lines, FrontMap& map)
+void CollectSources(FrontMap& map)
 {
   const SnappedSegments& snapped = map.Snapped;
   map.SourceStart.assign(snapped.Edges.size() + 1, 0);
   for (const std::int32_t entry : snapped.Path)
   {
-    ++map.SourceStart[(entry < 0 ? ~entry : entry) + 1];
+    ++map.SourceStart[FrontMap::EdgeOf(entry) + 1];
   }
   std::partial_sum(map.SourceStart.begin(), map.SourceStart.end(), map.SourceStart.begin());
   map.Sources.resize(snapped.Path.size());
   std::vector<std::int64_t> next(map.SourceStart.begin(), map.SourceStart.end() - 1);
-  for (std::size_t l = 0; l < lines.Lines.size(); ++l)
+  for (std::size_t s = 0; s < map.Segments.size(); ++s)
   {
-    for (std::int64_t s = map.FirstSegment[l]; s < map.FirstSegment[l + 1]; ++s)
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
     {
-      for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
-      {
-        const std::int32_t entry = snapped.Path[p];
-        LineSource source;
-        source.Line = std::int32_t(l);
-        source.Segment = std::int32_t(s - map.FirstSegment[l]);
-        source.Backward = entry < 0;
-        map.Sources[next[entry < 0 ? ~entry : entry]++] = source;
-      }
+      LineSource& source = map.Sources[next[FrontMap::EdgeOf(snapped.Path[p])]++];
+      source.Line = map.Segments[s].Line;
+      source.Segment = std::int32_t(s);
+      source.Backward = snapped.Path[p] < 0;
     }
   }
 }
@@ -91,11 +89,12 @@ void LookAtCells(const ImagePlane& image, const RayCaster& caster, const Paralle
     parallel(first, last, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t c = begin; c < end; ++c)
       {
-        map.Cells[c] = LookAt(caster, image, map.ToImage(plane.Sample[c]));
-        for (std::int64_t k = plane.FurtherStart[c];
-             k < plane.FurtherStart[c + 1] && plane.FurtherRadius[k] > SliverRadius; ++k)
+        const std::int64_t first = plane.SampleStart[c];
+        map.Cells[c] = LookAt(caster, image, map.ToImage(plane.Samples[first].Point));
+        for (std::int64_t k = first + 1;
+             k < plane.SampleStart[c + 1] && plane.Samples[k].Radius > SliverRadius; ++k)
         {
-          const FrontHit other = LookAt(caster, image, map.ToImage(plane.Further[k]));
+          const FrontHit other = LookAt(caster, image, map.ToImage(plane.Samples[k].Point));
           if (other.Face != map.Cells[c].Face)
           {
             others[c].push_back(other.Face);
@@ -126,13 +125,28 @@ void LookAtCells(const ImagePlane& image, const RayCaster& caster, const Paralle
 LinePosition FrontMap::At(
   const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const
 {
-  const ViewLine& line = lines[source.Line];
-  const Vec2& a = line.Image[source.Segment];
-  const Vec2 along = line.Image[source.Segment + 1] - a;
+  const LinePart& segment = this->Segments[source.Segment];
+  const Vec2 a = ImageAt(lines[source.Line], segment.From);
+  const Vec2 along = ImageAt(lines[source.Line], segment.To) - a;
   const double share = along.dot(this->VertexImage(vertex) - a) / along.squaredNorm();
   // Within a pixel's reach of an end of the segment it is the end.
   const double reach = this->Pixel / along.norm();
-  return source.Segment + (share < reach ? 0.0 : (share > 1.0 - reach ? 1.0 : share));
+  return share < reach    ? segment.From
+    : share > 1.0 - reach ? segment.To
+                          : segment.From + share * (segment.To - segment.From);
+}
+
+std::vector<LinePart> LinesInView(const ViewLines& lines)
+{
+  std::vector<LinePart> out;
+  for (std::size_t l = 0; l < lines.Lines.size(); ++l)
+  {
+    if (!lines.Lines[l].IsBehind)
+    {
+      out.push_back({ std::int32_t(l), 0.0, double(lines.Lines[l].Points.size() - 1) });
+    }
+  }
+  return out;
 }
 
 FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at)
@@ -151,8 +165,9 @@ FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at
   return out;
 }
 
-FrontMap MakeFrontMap(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
-  double pixel, const ParallelFor& parallel, const std::function<bool(double)>& progress)
+FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
+  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress)
 {
   FrontMap map;
   map.Pixel = pixel;
@@ -167,10 +182,10 @@ FrontMap MakeFrontMap(const ViewLines& lines, const ImagePlane& image, const Ray
   map.Center = box.isEmpty() ? Vec2(Vec2::Zero()) : Vec2(box.center());
   std::vector<GridPoint> points;
   std::vector<GridSegment> segments;
-  AddSegments(lines, map, points, segments);
+  AddSegments(lines, parts, map, points, segments);
   map.Snapped = SnapRound(points, segments, parallel);
   map.Plane = MakePlanarMap(map.Snapped, SamplesPerCell);
-  CollectSources(lines, map);
+  CollectSources(map);
   LookAtCells(image, caster, parallel, progress, map);
   return map;
 }
@@ -205,7 +220,7 @@ public:
 private:
   bool IsSliver(std::int32_t cell) const
   {
-    return cell != 0 && this->Map.Plane.Radius[cell] < SliverRadius;
+    return cell != 0 && this->Map.Plane.Samples[this->Map.Plane.SampleStart[cell]].Radius < SliverRadius;
   }
   double Length(std::int32_t edge) const
   {
@@ -222,9 +237,9 @@ private:
 
 bool SliverJoiner::IsBorderOf(std::int32_t edge, const std::set<std::int64_t>& faces) const
 {
-  for (std::int64_t k = this->Map.SourceStart[edge]; k < this->Map.SourceStart[edge + 1]; ++k)
+  for (const LineSource& source : this->Map.SourcesOf(edge))
   {
-    const ViewLine& line = this->Lines.Lines[this->Map.Sources[k].Line];
+    const ViewLine& line = this->Lines.Lines[source.Line];
     for (const std::int64_t face : faces)
     {
       if (face >= 0 && IsOfFace(this->Lines, line, face))
@@ -341,17 +356,17 @@ std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
 {
   std::vector<Step> out;
   const SnappedSegments& snapped = this->Map.Snapped;
-  for (std::int64_t p = snapped.PathStart[this->Map.FirstSegment[line]];
-       p < snapped.PathStart[this->Map.FirstSegment[line + 1]]; ++p)
+  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
   {
-    const std::int32_t edge = snapped.Path[p] < 0 ? ~snapped.Path[p] : snapped.Path[p];
-    for (std::int64_t k = this->Map.SourceStart[edge]; k < this->Map.SourceStart[edge + 1]; ++k)
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
     {
-      // A line that folds back in the image passes an edge more than once.
-      if (this->Map.Sources[k].Line == line && (out.empty() || out.back().Source != k))
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      std::int64_t k = this->Map.SourceStart[edge];
+      while (this->Map.Sources[k].Segment != s)
       {
-        out.push_back({ edge, k });
+        ++k;
       }
+      out.push_back({ edge, k });
     }
   }
   return out;
@@ -360,7 +375,7 @@ std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
 bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
-  const Vec2 beside = this->Map.ToImage(this->Map.Plane.SideSample[step.Edge][side]);
+  const Vec2 beside = this->Map.ToImage(this->Map.Plane.SideSamples[step.Edge][side].Point);
   const FrontHit& front = this->Map.Front(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
   if (hit.Face != front.Face)

@@ -25,11 +25,18 @@ struct FrontHit
   bool FromBehind = false; ///< Its inside faces the viewer.
 };
 
+/// A part of a line.
+struct LinePart
+{
+  std::int32_t Line = -1;
+  LinePosition From = 0.0, To = 0.0; ///< From < To.
+};
+
 /// A line that runs along an edge of the map.
 struct LineSource
 {
   std::int32_t Line = -1;
-  std::int32_t Segment = 0; ///< Of the line.
+  std::int32_t Segment = 0; ///< Index into FrontMap::Segments.
   bool Backward = false;    ///< The line runs from the edge's end to its start.
   /// Bits 0 and 1: the surface seen on the left and right of the edge (from start to end) ends here,
   /// at this line of its own.
@@ -42,7 +49,10 @@ struct FrontMap
   Vec2 Center = Vec2::Zero(); ///< Image point of grid point (0, 0).
   SnappedSegments Snapped;
   PlanarMap Plane;
-  std::vector<std::int64_t> FirstSegment; ///< One a line, of those given to SnapRound; and the end.
+  /// What was given to SnapRound: parts of lines between two of their points, or less; by line, and in
+  /// order along it.
+  std::vector<LinePart> Segments;
+  std::vector<std::int64_t> FirstSegment; ///< One a line, into Segments; and the end.
   std::vector<std::int64_t> SourceStart;  ///< One an edge of the map, into Sources; and the end.
   std::vector<LineSource> Sources;
   std::vector<FrontHit> Cells; ///< What is in front, by cell.
@@ -61,6 +71,13 @@ struct FrontMap
     const GridPoint& p = this->Snapped.Vertices[vertex];
     return this->ToImage(Vec2(double(p.X), double(p.Y)));
   }
+  /// The edge of an entry of Snapped.Path, and the sources of an edge.
+  static std::int32_t EdgeOf(std::int32_t entry) { return entry < 0 ? ~entry : entry; }
+  ArrayView<LineSource> SourcesOf(std::int32_t edge) const
+  {
+    return { this->Sources.data() + this->SourceStart[edge],
+      std::size_t(this->SourceStart[edge + 1] - this->SourceStart[edge]) };
+  }
   /// Where a source's line passes a vertex of its segment's path, as near as the vertex is to it.
   LinePosition At(
     const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const;
@@ -69,10 +86,14 @@ struct FrontMap
 /// Looks along a line of sight.
 FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at);
 
-/// Makes the map of lines that are not IsBehind. `pixel`: a length. Stops early, with no cells, when
+/// All lines that are not IsBehind, whole.
+std::vector<LinePart> LinesInView(const ViewLines& lines);
+
+/// Makes the map of parts of lines, given by line and in order. `pixel`: a length. Stops early, with no cells, when
 /// `progress`, which is called from this thread, returns false.
-FrontMap MakeFrontMap(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
-  double pixel, const ParallelFor& parallel, const std::function<bool(double)>& progress);
+FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
+  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress);
 
 /// Gives cells narrower than about a pixel to a neighbour: to the one that keeps as much as possible
 /// of lines that a surface seen beside ends at.

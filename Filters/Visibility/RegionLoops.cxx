@@ -100,9 +100,8 @@ BorderTracer::BorderTracer(const ViewLines& lines, const FrontMap& map, bool bot
 // True if the face is seen on both sides of an edge but does not go on across it.
 bool BorderTracer::IsCut(std::int32_t edge, std::int64_t face) const
 {
-  for (std::int64_t k = this->Map.SourceStart[edge]; k < this->Map.SourceStart[edge + 1]; ++k)
+  for (const LineSource& source : this->Map.SourcesOf(edge))
   {
-    const LineSource& source = this->Map.Sources[k];
     const ViewLine& line = this->Lines.Lines[source.Line];
     if (source.Shows == 0 || !IsOfFace(this->Lines, line, face))
     {
@@ -255,9 +254,8 @@ RegionLifter::Step RegionLifter::Classify(HalfEdge half) const
   out.Half = half;
   const std::int32_t edge = half / 2;
   const LineSource* shadow = nullptr;
-  for (std::int64_t k = this->Map.SourceStart[edge]; k < this->Map.SourceStart[edge + 1]; ++k)
+  for (const LineSource& source : this->Map.SourcesOf(edge))
   {
-    const LineSource& source = this->Map.Sources[k];
     const ViewLine& line = this->Lines.Lines[source.Line];
     const bool isOwn =
       (source.Shows >> (half % 2) & 1) && IsOfFace(this->Lines, line, this->FaceIndex);
@@ -331,7 +329,7 @@ void RegionLifter::AddOwn(const Step& first, const Step& last, RegionLoop& out) 
 Vec2 RegionLifter::Seed(HalfEdge half) const
 {
   const FrontHit hit = LookAt(
-    this->Caster, this->Image, this->Map.ToImage(this->Map.Plane.SideSample[half / 2][half % 2]));
+    this->Caster, this->Image, this->Map.ToImage(this->Map.Plane.SideSamples[half / 2][half % 2].Point));
   return hit.Face == this->FaceIndex ? hit.UV : this->Map.Front(half / 2, half % 2).UV;
 }
 

@@ -83,8 +83,8 @@ bool RegionMaker::MakeLines()
 bool RegionMaker::MakeMap()
 {
   const auto make = [&]() {
-    this->Map = MakeFrontMap(this->Out.Lines, this->Image, this->Caster,
-      PixelShare * this->Options.Precision, this->Options.Parallel,
+    this->Map = MakeFrontMap(this->Out.Lines, LinesInView(this->Out.Lines), this->Image,
+      this->Caster, PixelShare * this->Options.Precision, this->Options.Parallel,
       [&](double done) { return this->Report(LinesDone + (MapDone - LinesDone) * done); });
     return !this->Map.Cells.empty();
   };
@@ -175,41 +175,35 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
   std::vector<Piece> out;
   double reached = 0.0;
   const auto add = [&](LinePosition to, bool visible) {
-    if (!out.empty() && out.back().Visible == visible)
+    if (to > reached && !out.empty() && out.back().Visible == visible)
     {
       out.back().To = to;
     }
-    else
+    else if (to > reached)
     {
       out.push_back({ reached, to, visible });
     }
-    reached = to;
+    reached = std::max(reached, to);
   };
   for (std::int64_t s = this->Map.FirstSegment[index]; s < this->Map.FirstSegment[index + 1]; ++s)
   {
-    const auto segment = std::int32_t(s - this->Map.FirstSegment[index]);
+    const LinePart& segment = this->Map.Segments[s];
+    add(segment.From, false);
     for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
     {
       const bool backward = snapped.Path[p] < 0;
-      const std::int32_t edge = backward ? ~snapped.Path[p] : snapped.Path[p];
-      std::int64_t k = this->Map.SourceStart[edge];
-      while (this->Map.Sources[k].Line != index || this->Map.Sources[k].Segment != segment)
-      {
-        ++k;
-      }
-      const LineSource& source = this->Map.Sources[k];
-      const LinePosition to = p + 1 == snapped.PathStart[s + 1]
-        ? segment + 1.0
-        : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]);
-      add(std::max(reached, to), source.Shows != 0);
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      const ArrayView<LineSource> sources = this->Map.SourcesOf(edge);
+      const LineSource& source = *std::find_if(sources.begin(), sources.end(),
+        [&](const LineSource& one) { return one.Segment == std::int32_t(s); });
+      add(p + 1 == snapped.PathStart[s + 1]
+          ? segment.To
+          : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]),
+        source.Shows != 0);
     }
   }
-  const double end = double(line.Points.size() - 1);
-  if (out.empty())
-  {
-    out.push_back({ 0.0, end, false });
-  }
-  out.back().To = end;
+  // What is in no part, or too short in the image to have a path.
+  add(double(line.Points.size() - 1), false);
   return out;
 }
 
