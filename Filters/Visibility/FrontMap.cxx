@@ -15,14 +15,14 @@ namespace
 
 // Cells whose largest circle is smaller than this, in pixels, are no cells.
 constexpr double SliverRadius = 0.75;
+// Where lines are looked at from beside, in pixels.
+constexpr double BesideDistance = 3.0;
 // Lines of sight a cell, that show surfaces that pierce each other.
 constexpr int SamplesPerCell = 4;
-// A hit beside a line belongs to the line's sheet at once if it is not farther from the line's point
-// than this many times their distance in the image.
-constexpr double NearSlope = 8.0;
-// Of all hits with the line's face the nearest one is on its sheet, and others up to this many times
-// as far may be: on both sides of a silhouette the distances are about the same.
-constexpr double SameSheet = 4.0;
+// A hit beside a line is on a sheet that ends there if the way back along the surface leads this much
+// nearer to the line. On other sheets it leads nowhere near; at a silhouette, where the surface turns
+// away, to the square root of the chord's error.
+constexpr double NearerShare = 0.6;
 
 // The segments of all parts.
 void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
@@ -122,6 +122,11 @@ void LookAtCells(const ImagePlane& image, const RayCaster& caster, const Paralle
 
 } // namespace
 
+bool FrontMap::IsSliver(std::int32_t cell) const
+{
+  return cell != 0 && this->Plane.Samples[this->Plane.SampleStart[cell]].Radius < SliverRadius;
+}
+
 LinePosition FrontMap::At(
   const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const
 {
@@ -134,6 +139,14 @@ LinePosition FrontMap::At(
   return share < reach    ? segment.From
     : share > 1.0 - reach ? segment.To
                           : segment.From + share * (segment.To - segment.From);
+}
+
+Vec2 FrontMap::Beside(std::int32_t edge, int side) const
+{
+  const auto& ends = this->Snapped.Edges[edge];
+  const Vec2 middle = 0.5 * (this->VertexImage(ends[0]) + this->VertexImage(ends[1]));
+  const Vec2 way = this->ToImage(this->Plane.SideSamples[edge][side].Point) - middle;
+  return middle + std::min(1.0, BesideDistance * this->Pixel / way.norm()) * way;
 }
 
 std::vector<LinePart> LinesInView(const ViewLines& lines)
@@ -207,7 +220,7 @@ public:
       for (int side = 0; side < 2; ++side)
       {
         const std::int32_t cell = map.Plane.Sides[e][side];
-        if (this->IsSliver(cell) && map.Plane.Sides[e][1 - side] != cell)
+        if (this->Map.IsSliver(cell) && map.Plane.Sides[e][1 - side] != cell)
         {
           this->EdgesOf[cell].push_back(2 * std::int32_t(e) + side);
         }
@@ -218,10 +231,6 @@ public:
   void Run();
 
 private:
-  bool IsSliver(std::int32_t cell) const
-  {
-    return cell != 0 && this->Map.Plane.Samples[this->Map.Plane.SampleStart[cell]].Radius < SliverRadius;
-  }
   double Length(std::int32_t edge) const
   {
     const auto& ends = this->Map.Snapped.Edges[edge];
@@ -285,7 +294,7 @@ void SliverJoiner::Run()
   std::vector<std::int32_t> waiting;
   for (std::int32_t c = 0; c < this->Map.Plane.CellCount; ++c)
   {
-    known[c] = !this->IsSliver(c);
+    known[c] = !this->Map.IsSliver(c);
     if (!known[c])
     {
       waiting.push_back(c);
@@ -331,7 +340,14 @@ public:
     , Image(image)
     , Caster(caster)
     , Map(map)
-  {}
+    , Degree(map.Snapped.Vertices.size(), 0)
+  {
+    for (const auto& ends : map.Snapped.Edges)
+    {
+      ++this->Degree[ends[0]];
+      ++this->Degree[ends[1]];
+    }
+  }
 
   void Find(std::int64_t line);
 
@@ -344,13 +360,23 @@ private:
   };
 
   std::vector<Step> Steps(std::int64_t line) const;
+  bool StartsAtNode(const Step& step) const;
   bool Shows(const ViewLine& line, const Step& step, int side) const;
 
   const ViewLines& Lines;
   const ImagePlane& Image;
   const RayCaster& Caster;
   FrontMap& Map;
+  std::vector<std::int32_t> Degree; // Edges at each vertex.
 };
+
+// Where other lines meet this one; it may become hidden there although one of its cells goes on: all
+// lines touch the silhouette at which they turn away.
+bool ShownLines::StartsAtNode(const Step& step) const
+{
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  return this->Degree[ends[this->Map.Sources[step.Source].Backward ? 1 : 0]] != 2;
+}
 
 std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
 {
@@ -375,7 +401,7 @@ std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
 bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
-  const Vec2 beside = this->Map.ToImage(this->Map.Plane.SideSamples[step.Edge][side].Point);
+  const Vec2 beside = this->Map.Beside(step.Edge, side);
   const FrontHit& front = this->Map.Front(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
   if (hit.Face != front.Face)
@@ -386,20 +412,12 @@ bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
   const double at = 0.5 *
     (this->Map.At(this->Lines.Lines, source, ends[0]) +
       this->Map.At(this->Lines.Lines, source, ends[1]));
-  const Vec3 point = PointAt(line, at);
-  const double distance = (hit.Point - point).norm();
-  if (distance <= NearSlope * (beside - ImageAt(line, at)).norm())
-  {
-    return true;
-  }
-  std::vector<RayHit> hits;
-  this->Caster.All(this->Image.Sight(beside), hits);
-  double nearest = 1e300;
-  for (const RayHit& other : hits)
-  {
-    nearest = std::min(nearest, other.Face == front.Face ? (other.Point - point).norm() : 1e300);
-  }
-  return distance <= SameSheet * nearest;
+  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+  const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
+  Vec2 uv = hit.UV;
+  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, uv);
+  return (Evaluate(surface, uv[0], uv[1]) - point).norm() <=
+    NearerShare * (hit.Point - point).norm();
 }
 
 // Between two crossings nothing changes: one look a side, where there is most room.
@@ -424,9 +442,11 @@ void ShownLines::Find(std::int64_t index)
       std::size_t best = first;
       const auto room = [&](std::size_t k) {
         const int side = this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
-        return this->Map.Plane.SideRadius[steps[k].Edge][side];
+        return this->Map.Plane.SideSamples[steps[k].Edge][side].Radius;
       };
-      for (last = first; last < steps.size() && cellOf(steps[last], lineSide) == cell; ++last)
+      for (last = first; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
+           (last == first || !this->StartsAtNode(steps[last]));
+           ++last)
       {
         best = room(last) > room(best) ? last : best;
       }

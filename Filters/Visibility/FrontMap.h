@@ -60,6 +60,8 @@ struct FrontMap
   /// pierce each other, or touch. Pairs of faces, each once, sorted.
   std::vector<std::array<std::int64_t, 2>> Piercing;
 
+  /// True for cells that are too narrow to be looked into: under about a pixel and a half.
+  bool IsSliver(std::int32_t cell) const;
   std::int32_t Cell(std::int32_t edge, int side) const { return this->Plane.Sides[edge][side]; }
   const FrontHit& Front(std::int32_t edge, int side) const
   {
@@ -78,6 +80,9 @@ struct FrontMap
     return { this->Sources.data() + this->SourceStart[edge],
       std::size_t(this->SourceStart[edge + 1] - this->SourceStart[edge]) };
   }
+  /// A point of the image within a side's cell, a few pixels from the middle of an edge, or nearer
+  /// where the cell is narrow.
+  Vec2 Beside(std::int32_t edge, int side) const;
   /// Where a source's line passes a vertex of its segment's path, as near as the vertex is to it.
   LinePosition At(
     const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const;

@@ -38,6 +38,7 @@ private:
   bool IsCut(std::int32_t edge, std::int64_t face) const;
   bool IsBorder(HalfEdge half) const;
   HalfEdge Next(HalfEdge half) const;
+  std::vector<char> FindSpecks() const;
   std::int32_t Start(HalfEdge half) const { return this->Map.Snapped.Edges[half / 2][half % 2]; }
 
   const ViewLines& Lines;
@@ -154,13 +155,46 @@ HalfEdge BorderTracer::Next(HalfEdge half) const
   }
 }
 
+// Cells in regions that consist of slivers only.
+std::vector<char> BorderTracer::FindSpecks() const
+{
+  std::vector<std::int32_t> parent(this->Map.Cells.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](std::int32_t c) {
+    while (parent[c] != c)
+    {
+      c = parent[c] = parent[parent[c]];
+    }
+    return c;
+  };
+  for (HalfEdge h = 0; h < HalfEdge(this->Border.size()); h += 2)
+  {
+    if (!this->Border[h] && !this->Border[h + 1] && this->Face(h) == this->Face(h + 1))
+    {
+      parent[find(this->Map.Cell(h / 2, 0))] = find(this->Map.Cell(h / 2, 1));
+    }
+  }
+  std::vector<char> isWide(parent.size(), 0);
+  for (std::size_t c = 0; c < parent.size(); ++c)
+  {
+    isWide[find(std::int32_t(c))] |= !this->Map.IsSliver(std::int32_t(c));
+  }
+  std::vector<char> out(parent.size());
+  for (std::size_t c = 0; c < parent.size(); ++c)
+  {
+    out[c] = !isWide[find(std::int32_t(c))];
+  }
+  return out;
+}
+
 std::vector<std::vector<std::vector<HalfEdge>>> BorderTracer::Trace() const
 {
+  const std::vector<char> isSpeck = this->FindSpecks();
   std::vector<std::vector<std::vector<HalfEdge>>> out(this->Lines.Whole.Data.Faces.size());
   std::vector<char> done(this->Border.size(), 0);
   for (HalfEdge first = 0; first < HalfEdge(this->Border.size()); ++first)
   {
-    if (!this->Border[first] || done[first])
+    if (!this->Border[first] || done[first] || isSpeck[this->Map.Cell(first / 2, first % 2)])
     {
       continue;
     }
@@ -248,20 +282,28 @@ std::int64_t RegionLifter::UseAt(const LineSource& source, HalfEdge half) const
   return out;
 }
 
+// Where lines of a face run together in the image: an edge touches the silhouette at which it turns away,
+// and the border follows the silhouette to its end. Along an edge, the trim curve is exact.
+int Preference(const ViewLine& line)
+{
+  return line.IsEdge() ? 2 : (line.Edge < 0 ? 3 : 1);
+}
+
 RegionLifter::Step RegionLifter::Classify(HalfEdge half) const
 {
   Step out;
   out.Half = half;
   const std::int32_t edge = half / 2;
   const LineSource* shadow = nullptr;
+  int preference = 0;
   for (const LineSource& source : this->Map.SourcesOf(edge))
   {
     const ViewLine& line = this->Lines.Lines[source.Line];
     const bool isOwn =
       (source.Shows >> (half % 2) & 1) && IsOfFace(this->Lines, line, this->FaceIndex);
-    // Edges before silhouettes: their trim curves are exact.
-    if (isOwn && (!out.Source || (line.IsEdge() && out.Curve < 0)))
+    if (isOwn && Preference(line) > preference)
     {
+      preference = Preference(line);
       out.Source = &source;
       out.Curve = line.IsEdge() ? this->UseAt(source, half) : -1;
     }
@@ -328,8 +370,7 @@ void RegionLifter::AddOwn(const Step& first, const Step& last, RegionLoop& out) 
 // A place on the face's sheet beside a half-edge.
 Vec2 RegionLifter::Seed(HalfEdge half) const
 {
-  const FrontHit hit = LookAt(
-    this->Caster, this->Image, this->Map.ToImage(this->Map.Plane.SideSamples[half / 2][half % 2].Point));
+  const FrontHit hit = LookAt(this->Caster, this->Image, this->Map.Beside(half / 2, half % 2));
   return hit.Face == this->FaceIndex ? hit.UV : this->Map.Front(half / 2, half % 2).UV;
 }
 

@@ -198,6 +198,22 @@ Vec2 ImageAt(const ViewLine& line, LinePosition at)
   return Interpolate(line.Image, at);
 }
 
+ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at)
+{
+  ContourPoint out;
+  out.UV = ParametersAt(line, at);
+  const SurfaceView& surface = lines.Whole.Data.Faces[line.Face].Geometry;
+  if (line.IsEdge())
+  {
+    const TrimCurve& curve = lines.Whole.Data.TrimCurves[lines.Uses[line.Edge].front().Curve];
+    const Interval domain = curve.Geometry.Domain();
+    out.UV = Evaluate(curve.Geometry, domain.Min + ShareAt(line, at) * domain.Length());
+    out.UV = Vec2(surface.Domain(0).Clamp(out.UV[0]), surface.Domain(1).Clamp(out.UV[1]));
+  }
+  out.Point = Evaluate(surface, out.UV[0], out.UV[1]);
+  return out;
+}
+
 double ShareAt(const ViewLine& line, LinePosition at)
 {
   return Interpolate(line.Shares, at);

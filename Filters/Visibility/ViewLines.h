@@ -49,11 +49,13 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
 /// True if the line lies on the border of a face: it is an edge that the face uses, or its silhouette.
 bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face);
 
-/// Point of a line, its image, and (u, v) on a use of its edge.
+/// Point of a line, and its image.
 Vec3 PointAt(const ViewLine& line, LinePosition at);
 Vec2 ImageAt(const ViewLine& line, LinePosition at);
 /// (u, v) on the line's own face.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at);
+/// The same, moved from the chord to the edge's curve; silhouettes: to the surface.
+ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at);
 /// Share of the trim curves; of edges only.
 double ShareAt(const ViewLine& line, LinePosition at);
 
