@@ -237,9 +237,18 @@ private:
     LinePosition From = 0.0, To = 0.0;
   };
 
+  // A line of the face that may be what a half-edge is a part of.
+  struct Candidate
+  {
+    const LineSource* Source;
+    std::int64_t Curve;
+    Vec2 UV;
+    double Handicap;
+  };
+
+  void AddCandidates(HalfEdge half, std::vector<Candidate>& out) const;
   Step Classify(HalfEdge half) const;
   bool Continues(const Step& before, const Step& next) const;
-  std::int64_t UseAt(const LineSource& source, HalfEdge half) const;
   void AddOwn(const Step& first, const Step& last, RegionLoop& out) const;
   void AddShadow(
     const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out);
@@ -265,57 +274,74 @@ private:
   const SurfaceView& Surface;
 };
 
-// The use of an edge that has the face on the half-edge's left.
-std::int64_t RegionLifter::UseAt(const LineSource& source, HalfEdge half) const
+// Adds the parts of the face's border that run along a half-edge and end what is seen on its left.
+void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) const
 {
-  const bool forward = (half % 2 == 0) != source.Backward;
-  std::int64_t out = -1;
-  for (const EdgeUse& use : this->Lines.Uses[this->Lines.Lines[source.Line].Edge])
+  const Model& model = this->Lines.Whole.Data;
+  const auto& ends = this->Map.Snapped.Edges[half / 2];
+  for (const LineSource& source : this->Map.SourcesOf(half / 2))
   {
-    if (use.Face == this->FaceIndex)
+    const ViewLine& line = this->Lines.Lines[source.Line];
+    if (!(source.Shows >> (half % 2) & 1) || !IsOfFace(this->Lines, line, this->FaceIndex))
     {
-      const bool runs = forward != this->IsFlipped(half);
-      const bool fits = runs != this->Lines.Whole.Data.TrimCurves[use.Curve].Reversed;
-      out = fits || out < 0 ? use.Curve : out;
+      continue;
+    }
+    const LinePosition middle = 0.5 *
+      (this->Map.At(this->Lines.Lines, source, ends[0]) +
+        this->Map.At(this->Lines.Lines, source, ends[1]));
+    if (!line.IsEdge())
+    {
+      out.push_back({ &source, -1, ParametersAt(line, middle), line.Edge < 0 ? 1.0 : 4.0 });
+      continue;
+    }
+    for (const EdgeUse& use : this->Lines.Uses[line.Edge])
+    {
+      if (use.Face == this->FaceIndex)
+      {
+        RegionPiece piece;
+        piece.Curve = use.Curve;
+        piece.To = ShareAt(line, middle);
+        out.push_back({ &source, use.Curve, EndOfPiece(model, piece, true), 2.0 });
+      }
     }
   }
-  return out;
-}
-
-// Where lines of a face run together in the image: an edge touches the silhouette at which it turns away,
-// and the border follows the silhouette to its end. Along an edge, the trim curve is exact.
-int Preference(const ViewLine& line)
-{
-  return line.IsEdge() ? 2 : (line.Edge < 0 ? 3 : 1);
 }
 
 RegionLifter::Step RegionLifter::Classify(HalfEdge half) const
 {
   Step out;
   out.Half = half;
-  const std::int32_t edge = half / 2;
-  const LineSource* shadow = nullptr;
-  int preference = 0;
-  for (const LineSource& source : this->Map.SourcesOf(edge))
+  std::vector<Candidate> candidates;
+  this->AddCandidates(half, candidates);
+  if (candidates.size() > 1)
   {
-    const ViewLine& line = this->Lines.Lines[source.Line];
-    const bool isOwn =
-      (source.Shows >> (half % 2) & 1) && IsOfFace(this->Lines, line, this->FaceIndex);
-    if (isOwn && Preference(line) > preference)
-    {
-      preference = Preference(line);
-      out.Source = &source;
-      out.Curve = line.IsEdge() ? this->UseAt(source, half) : -1;
-    }
+    // The nearest in (u, v) to what is seen beside: of the two uses of a seam, or where a line runs
+    // into a silhouette, which it touches in the image. About as near: a silhouette before an edge.
+    const Vec2 beside = this->Seed(half);
+    const Vec2 size(this->Surface.Domain(0).Length(), this->Surface.Domain(1).Length());
+    const auto rank = [&](const Candidate& one) {
+      return one.Handicap * (SameParameters + (one.UV - beside).cwiseQuotient(size).norm());
+    };
+    if (getenv("DBG")) for (auto& c : candidates) printf("half %d cand curve %ld uv %g %g beside %g %g rank %g\n",half,(long)c.Curve,c.UV[0],c.UV[1],beside[0],beside[1],rank(c));
+    std::swap(candidates.front(),
+      *std::min_element(candidates.begin(), candidates.end(),
+        [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); }));
+  }
+  if (!candidates.empty())
+  {
+    out.Source = candidates.front().Source;
+    out.Curve = candidates.front().Curve;
+  }
+  out.IsShadow = candidates.empty();
+  for (const LineSource& source : this->Map.SourcesOf(half / 2))
+  {
     // A shadow is cast by what is seen on the other side.
-    if (!shadow || (source.Shows != 0 && shadow->Shows == 0))
+    if (out.IsShadow && (!out.Source || (source.Shows != 0 && out.Source->Shows == 0)))
     {
-      shadow = &source;
+      out.Source = &source;
     }
   }
-  out.IsShadow = out.Source == nullptr;
-  out.Source = out.IsShadow ? shadow : out.Source;
-  const auto& ends = this->Map.Snapped.Edges[edge];
+  const auto& ends = this->Map.Snapped.Edges[half / 2];
   out.From = this->Map.At(this->Lines.Lines, *out.Source, ends[half % 2]);
   out.To = this->Map.At(this->Lines.Lines, *out.Source, ends[1 - half % 2]);
   return out;
