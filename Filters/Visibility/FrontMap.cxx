@@ -15,8 +15,6 @@ namespace
 
 // Cells whose largest circle is smaller than this, in pixels, are no cells.
 constexpr double SliverRadius = 0.75;
-// Where lines are looked at from beside, in pixels.
-constexpr double BesideDistance = 3.0;
 // Lines of sight a cell, that show surfaces that pierce each other.
 constexpr int SamplesPerCell = 4;
 // A hit beside a line is on a sheet that ends there if the way back along the surface leads this much
@@ -139,14 +137,6 @@ LinePosition FrontMap::At(
   return share < reach    ? segment.From
     : share > 1.0 - reach ? segment.To
                           : segment.From + share * (segment.To - segment.From);
-}
-
-Vec2 FrontMap::Beside(std::int32_t edge, int side) const
-{
-  const auto& ends = this->Snapped.Edges[edge];
-  const Vec2 middle = 0.5 * (this->VertexImage(ends[0]) + this->VertexImage(ends[1]));
-  const Vec2 way = this->ToImage(this->Plane.SideSamples[edge][side].Point) - middle;
-  return middle + std::min(1.0, BesideDistance * this->Pixel / way.norm()) * way;
 }
 
 std::vector<LinePart> LinesInView(const ViewLines& lines)

@@ -82,7 +82,10 @@ struct FrontMap
   }
   /// A point of the image within a side's cell, a few pixels from the middle of an edge, or nearer
   /// where the cell is narrow.
-  Vec2 Beside(std::int32_t edge, int side) const;
+  Vec2 Beside(std::int32_t edge, int side) const
+  {
+    return this->ToImage(this->Plane.SideSamples[edge][side].Point);
+  }
   /// Where a source's line passes a vertex of its segment's path, as near as the vertex is to it.
   LinePosition At(
     const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const;
