@@ -429,19 +429,25 @@ void ShownLines::Find(std::int64_t index)
     for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
     {
       const std::int32_t cell = cellOf(steps[first], lineSide);
-      std::size_t best = first;
-      const auto room = [&](std::size_t k) {
-        const int side = this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
-        return this->Map.Plane.SideSamples[steps[k].Edge][side].Radius;
-      };
-      for (last = first; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
-           (last == first || !this->StartsAtNode(steps[last]));
-           ++last)
+      for (last = first + 1; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
+           !this->StartsAtNode(steps[last]);)
       {
-        best = room(last) > room(best) ? last : best;
+        ++last;
+      }
+      const auto sideOf = [&](std::size_t k) {
+        return this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
+      };
+      const auto room = [&](std::size_t k) {
+        return this->Map.Plane.SideSamples[steps[k].Edge][sideOf(k)].Radius;
+      };
+      // Where there is room, and far from the ends, where sheets may be near to each other.
+      std::size_t best = first + (last - first) / 2;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        best = room(k) > room(best) ? k : best;
       }
       const std::int64_t face = this->Map.Cells[cell].Face;
-      const int side = this->Map.Sources[steps[best].Source].Backward ? 1 - lineSide : lineSide;
+      const int side = sideOf(best);
       if (face < 0 || !IsOfFace(this->Lines, line, face) || !this->Shows(line, steps[best], side))
       {
         continue;
@@ -449,7 +455,7 @@ void ShownLines::Find(std::int64_t index)
       for (std::size_t k = first; k < last; ++k)
       {
         LineSource& source = this->Map.Sources[steps[k].Source];
-        source.Shows |= std::uint8_t(1 << (source.Backward ? 1 - lineSide : lineSide));
+        source.Shows |= std::uint8_t(1 << sideOf(k));
       }
     }
   }

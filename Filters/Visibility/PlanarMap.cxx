@@ -394,9 +394,9 @@ private:
       {
         const int index = face->index(from);
         const Vec2 apex = Place(face->vertex(index)) - middle;
-        // The way leaves on the apex's other side: to its left through the edge before it.
+        // Left of the apex through the edge that is not the right end's, which follows the apex last.
         const bool leavesLeft = Cross(way, apex) < 0.0;
-        const int out = leavesLeft ? Triangulation::ccw(index) : Triangulation::cw(index);
+        const int out = leavesLeft ? Triangulation::cw(index) : Triangulation::ccw(index);
         const Vec2 a = Place(face->vertex(Triangulation::ccw(out))) - middle;
         const Vec2 b = Place(face->vertex(Triangulation::cw(out))) - middle;
         const double slope = Cross(way, b - a);

@@ -246,6 +246,7 @@ private:
     double Handicap;
   };
 
+  std::int64_t UseAt(const LineSource& source, HalfEdge half) const;
   void AddCandidates(HalfEdge half, std::vector<Candidate>& out) const;
   Step Classify(HalfEdge half) const;
   bool Continues(const Step& before, const Step& next) const;
@@ -274,6 +275,24 @@ private:
   const SurfaceView& Surface;
 };
 
+// The use of an edge that has the face on the half-edge's left: of the two of a seam, the one whose loop
+// runs that way.
+std::int64_t RegionLifter::UseAt(const LineSource& source, HalfEdge half) const
+{
+  const bool forward = (half % 2 == 0) != source.Backward;
+  std::int64_t out = -1;
+  for (const EdgeUse& use : this->Lines.Uses[this->Lines.Lines[source.Line].Edge])
+  {
+    if (use.Face == this->FaceIndex)
+    {
+      const bool runs = forward != this->IsFlipped(half);
+      const bool fits = runs != this->Lines.Whole.Data.TrimCurves[use.Curve].Reversed;
+      out = fits || out < 0 ? use.Curve : out;
+    }
+  }
+  return out;
+}
+
 // Adds the parts of the face's border that run along a half-edge and end what is seen on its left.
 void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) const
 {
@@ -294,16 +313,10 @@ void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) con
       out.push_back({ &source, -1, ParametersAt(line, middle), line.Edge < 0 ? 1.0 : 4.0 });
       continue;
     }
-    for (const EdgeUse& use : this->Lines.Uses[line.Edge])
-    {
-      if (use.Face == this->FaceIndex)
-      {
-        RegionPiece piece;
-        piece.Curve = use.Curve;
-        piece.To = ShareAt(line, middle);
-        out.push_back({ &source, use.Curve, EndOfPiece(model, piece, true), 2.0 });
-      }
-    }
+    RegionPiece piece;
+    piece.Curve = this->UseAt(source, half);
+    piece.To = ShareAt(line, middle);
+    out.push_back({ &source, piece.Curve, EndOfPiece(model, piece, true), 2.0 });
   }
 }
 
@@ -315,14 +328,13 @@ RegionLifter::Step RegionLifter::Classify(HalfEdge half) const
   this->AddCandidates(half, candidates);
   if (candidates.size() > 1)
   {
-    // The nearest in (u, v) to what is seen beside: of the two uses of a seam, or where a line runs
-    // into a silhouette, which it touches in the image. About as near: a silhouette before an edge.
+    // The nearest in (u, v) to what is seen beside, where a line runs into a silhouette, which it touches
+    // in the image. About as near: a silhouette before an edge.
     const Vec2 beside = this->Seed(half);
     const Vec2 size(this->Surface.Domain(0).Length(), this->Surface.Domain(1).Length());
     const auto rank = [&](const Candidate& one) {
       return one.Handicap * (SameParameters + (one.UV - beside).cwiseQuotient(size).norm());
     };
-    if (getenv("DBG")) for (auto& c : candidates) printf("half %d cand curve %ld uv %g %g beside %g %g rank %g\n",half,(long)c.Curve,c.UV[0],c.UV[1],beside[0],beside[1],rank(c));
     std::swap(candidates.front(),
       *std::min_element(candidates.begin(), candidates.end(),
         [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); }));
