@@ -13,8 +13,8 @@ namespace nurbs
 namespace
 {
 
-constexpr std::size_t LeastSamples = 24; // Of a fit, spread over the segments.
-constexpr int Rounds = 8;                // Of fitting and better parameters.
+constexpr std::size_t SampleCount = 40; // Of a fit, evenly along the polyline.
+constexpr int Rounds = 8;               // Of fitting and better parameters.
 constexpr int NewtonSteps = 2;
 constexpr double Hopeless = 30.0; // Tolerances that more rounds won't mend.
 constexpr double Slow = 0.9;      // Neither will they if a round leaves this part of the distance.
@@ -71,40 +71,65 @@ bool IsNear(const Cubic& c, const Vec2& a, const Vec2& b, double tolerance, int 
     IsNear(halves.second, a, b, tolerance, depth + 1);
 }
 
-// The polyline's points and some between, with parameters for them.
+// Whether no point of the cubic is farther than the tolerance from the polyline, and none of the
+// polyline from the cubic; parameters do not decrease. From the curve to the polyline: IsNear. The
+// other way: the part of a curve that belongs to a segment starts and ends near the segment's ends,
+// and its projection onto the segment has no gap between.
+bool KeepsWithin(const Cubic& cubic, const Vec2* points, const double* parameters,
+  std::size_t count, double tolerance)
+{
+  for (std::size_t k = 0; k + 1 < count; ++k)
+  {
+    const Cubic part = Part(cubic, parameters[k], parameters[k + 1]);
+    if ((part[0] - points[k]).norm() > tolerance || (part[3] - points[k + 1]).norm() > tolerance ||
+      !IsNear(part, points[k], points[k + 1], tolerance, 0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Points of a polyline, with parameters for them.
 struct Samples
 {
   std::vector<Vec2> Points;
   std::vector<double> Parameters;
-  std::size_t Stride = 1; // From one vertex of the polyline to the next.
 };
 
-Samples MakeSamples(const Vec2* points, std::size_t count)
+// The lengths of a polyline up to its points, as parts of the whole.
+std::vector<double> LengthsOf(const Vec2* points, std::size_t count)
+{
+  std::vector<double> lengths(count, 0.0);
+  for (std::size_t k = 1; k < count; ++k)
+  {
+    lengths[k] = lengths[k - 1] + (points[k] - points[k - 1]).norm();
+  }
+  const double all = lengths.back();
+  for (double& length : lengths)
+  {
+    length /= all;
+  }
+  return lengths;
+}
+
+Samples MakeSamples(const Vec2* points, const std::vector<double>& lengths)
 {
   Samples samples;
-  samples.Stride = std::max<std::size_t>(1, (LeastSamples + count - 2) / (count - 1));
-  const std::size_t total = (count - 1) * samples.Stride + 1;
-  samples.Points.reserve(total);
-  samples.Parameters.reserve(total);
-  double length = 0.0;
-  for (std::size_t k = 0; k + 1 < count; ++k)
+  std::size_t k = 0;
+  for (std::size_t s = 0; s <= SampleCount; ++s)
   {
-    const Vec2 chord = points[k + 1] - points[k];
-    const double step = chord.norm() / double(samples.Stride);
-    for (std::size_t s = 0; s < samples.Stride; ++s)
+    const double at = double(s) / SampleCount;
+    while (k + 2 < lengths.size() && lengths[k + 1] < at)
     {
-      samples.Points.emplace_back(points[k] + chord * (double(s) / double(samples.Stride)));
-      samples.Parameters.push_back(length);
-      length += step;
+      ++k;
     }
+    const double step = lengths[k + 1] - lengths[k];
+    const double part = step > 0.0 ? std::clamp((at - lengths[k]) / step, 0.0, 1.0) : 0.0;
+    samples.Points.emplace_back(points[k] + part * (points[k + 1] - points[k]));
+    samples.Parameters.push_back(at);
   }
-  samples.Points.push_back(points[count - 1]);
-  samples.Parameters.push_back(length);
-  for (double& parameter : samples.Parameters)
-  {
-    parameter /= length;
-  }
-  samples.Parameters.back() = 1.0;
+  samples.Points.back() = points[lengths.size() - 1];
   return samples;
 }
 
@@ -193,6 +218,23 @@ double Improve(const Cubic& c, Samples& samples)
   return largest;
 }
 
+// The polyline's own points, with parameters by those of the samples.
+Samples AllPoints(const Vec2* points, const std::vector<double>& lengths, const Samples& samples)
+{
+  Samples all;
+  all.Points.assign(points, points + lengths.size());
+  all.Parameters.resize(lengths.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+  {
+    const double at = lengths[k] * SampleCount;
+    const auto s = std::min(std::size_t(at), SampleCount - 1);
+    const double from = samples.Parameters[s];
+    all.Parameters[k] = from + (at - double(s)) * (samples.Parameters[s + 1] - from);
+  }
+  all.Parameters.back() = 1.0;
+  return all;
+}
+
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
@@ -205,28 +247,11 @@ double SegmentDistance(const Vec2& point, const Vec2& a, const Vec2& b)
 }
 
 //--------------------------------------------------------------------------------------------------
-// From the curve to the polyline: IsNear. The other way: the part of a curve that belongs to a segment
-// starts and ends near the segment's ends, and its projection onto the segment has no gap between.
-bool KeepsWithin(const Cubic& cubic, const Vec2* points, const double* parameters,
-  std::size_t stride, std::size_t count, double tolerance)
-{
-  for (std::size_t k = 0; k + 1 < count; ++k)
-  {
-    const Cubic part = Part(cubic, parameters[k * stride], parameters[(k + 1) * stride]);
-    if ((part[0] - points[k]).norm() > tolerance || (part[3] - points[k + 1]).norm() > tolerance ||
-      !IsNear(part, points[k], points[k + 1], tolerance, 0))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-//--------------------------------------------------------------------------------------------------
 std::optional<Cubic> FitCubic(
   const Vec2* points, std::size_t count, const CubicEnds& ends, double tolerance)
 {
-  Samples samples = MakeSamples(points, count);
+  const std::vector<double> lengths = LengthsOf(points, count);
+  Samples samples = MakeSamples(points, lengths);
   Cubic cubic;
   double before = std::numeric_limits<double>::max();
   for (int round = 0; round < Rounds; ++round)
@@ -238,10 +263,14 @@ std::optional<Cubic> FitCubic(
     {
       break;
     }
-    if (distance <= 2.0 * tolerance &&
-      KeepsWithin(cubic, points, samples.Parameters.data(), samples.Stride, count, tolerance))
+    if (distance <= tolerance)
     {
-      return cubic;
+      Samples all = AllPoints(points, lengths, samples);
+      if (Improve(cubic, all) <= tolerance &&
+        KeepsWithin(cubic, points, all.Parameters.data(), count, tolerance))
+      {
+        return cubic;
+      }
     }
     before = distance;
   }

@@ -35,11 +35,4 @@ double SegmentDistance(const Vec2& point, const Vec2& a, const Vec2& b);
 std::optional<Cubic> FitCubic(
   const Vec2* points, std::size_t count, const CubicEnds& ends, double tolerance);
 
-/// Whether no point of the cubic is farther than `tolerance` from the polyline, and none of the
-/// polyline from the cubic. `parameters`, one a point, do not decrease and go from 0 to 1: about where
-/// the cubic is next to the points. True is certain; false may be wrong where the distance is within
-/// a thousandth of the tolerance, or the parameters are bad.
-bool KeepsWithin(const Cubic& cubic, const Vec2* points, const double* parameters,
-  std::size_t stride, std::size_t count, double tolerance);
-
 } // namespace nurbs
