@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Shapes.h
-/// @brief Exact analytic shapes, the Utah teapot and two loads for scale tests, as trimmed models.
+/// @brief Exact analytic shapes, models of papers and two loads for scale tests, as trimmed models.
 ///
 /// Every function appends to a builder. Edges that faces share have one index, a seam is one edge
 /// used twice, a pole is an edge of degree 0, and all 3D curves are exact (their tolerance is
@@ -65,5 +65,24 @@ void AddSheet(ModelBuilder& builder, const SheetOptions& options);
 /// holes are cubic fits with their measured deviation as tolerance. The result depends on `faces`
 /// only; time and memory are linear.
 void AddCarBody(ModelBuilder& builder, std::int64_t faces);
+
+/// @name The models of Ruan, Zhang and Yong (2006)
+/// Closed solids of rational Bezier patches, one a face, of degree 3 at most, without further trims;
+/// the axis is z, the base at z = 0 (spring: the wire's middle starts there). Units: mm.
+///@{
+
+/// A vase, 226 mm high, its wall and bottom of revolution, with two handles that are sweeps: 76
+/// faces. A handle takes the place of two patches of the wall and shares their boundaries.
+void AddVase(ModelBuilder& builder);
+
+/// A missile, 180 mm long and 20 mm thick: conical tail, cylinders, tangent ogive of 40 mm, four tail
+/// fins and four wings of 1.5 mm thickness: 88 faces.
+void AddMissile(ModelBuilder& builder);
+
+/// A spring of 5.5 turns, 10 mm in radius, of a round wire of 1.5 mm radius with half balls at its
+/// ends, that rises 5 mm a turn: 88 + 8 = 96 faces. Sections across the wire are exact circles, their
+/// planes exactly across the helix; their middles are up to 7.4e-4 mm above or below the helix.
+void AddSpring(ModelBuilder& builder);
+///@}
 
 } // namespace nurbs

@@ -24,7 +24,7 @@ namespace
 {
 
 const char* const ShapeNames[] = { "sphere", "torus", "cylinder", "cone", "disc", "plate", "teapot",
-  "sheet", "car body" };
+  "sheet", "car body", "vase", "missile", "spring" };
 
 nurbs::SheetOptions MakeSheetOptions(vtkNURBSShapeSource* source)
 {
@@ -73,6 +73,15 @@ void AddShape(vtkNURBSShapeSource* source, nurbs::ModelBuilder& builder)
       break;
     case vtkNURBSShapeSource::CAR_BODY:
       nurbs::AddCarBody(builder, source->GetNumberOfPatches());
+      break;
+    case vtkNURBSShapeSource::VASE:
+      nurbs::AddVase(builder);
+      break;
+    case vtkNURBSShapeSource::MISSILE:
+      nurbs::AddMissile(builder);
+      break;
+    case vtkNURBSShapeSource::SPRING:
+      nurbs::AddSpring(builder);
       break;
   }
 }

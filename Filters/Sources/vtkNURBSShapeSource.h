@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkNURBSShapeSource
- * @brief Makes exact analytic shapes, the Utah teapot and loads for scale tests as NURBS models.
+ * @brief Makes exact analytic shapes, models of papers and loads for scale tests as NURBS models.
  *
  * The output is a model of vtkNURBSModel: a vtkUnstructuredGrid whose cells are exact trimmed
  * surfaces, with true topology. Faces that touch name the same edge, a seam is one edge used twice,
@@ -19,9 +19,14 @@
  * | TEAPOT | 32 | |
  * | SHEET | 1 | SheetPoints, SheetDegree, SheetSize, SheetAmplitude, SheetWaves, SheetRational |
  * | CAR_BODY | NumberOfPatches | NumberOfPatches |
+ * | VASE | 76 | |
+ * | MISSILE | 88 | |
+ * | SPRING | 96 | |
  *
  * The teapot is Martin Newell's data set of 1975, which is in the public domain. The car body
- * stands in for the models of 8,036 and 31,040 trimmed patches of Balazs, Guthe and Klein (2004).
+ * stands in for the models of 8,036 and 31,040 trimmed patches of Balazs, Guthe and Klein (2004). Vase,
+ * missile and spring are closed solids of rational Bezier patches after figures 7 to 9 of Ruan, Zhang
+ * and Yong (2006).
  *
  * A parameter out of its range is clamped; a tube radius that is not smaller than the ring's is an
  * error.
@@ -50,14 +55,17 @@ public:
     PLATE,
     TEAPOT,
     SHEET,
-    CAR_BODY
+    CAR_BODY,
+    VASE,
+    MISSILE,
+    SPRING
   };
 
   ///@{
   /**
    * Which shape is made. Default: SPHERE.
    */
-  vtkSetClampMacro(Shape, int, SPHERE, CAR_BODY);
+  vtkSetClampMacro(Shape, int, SPHERE, SPRING);
   vtkGetMacro(Shape, int);
   void SetShapeToSphere() { this->SetShape(SPHERE); }
   void SetShapeToTorus() { this->SetShape(TORUS); }
@@ -68,6 +76,9 @@ public:
   void SetShapeToTeapot() { this->SetShape(TEAPOT); }
   void SetShapeToSheet() { this->SetShape(SHEET); }
   void SetShapeToCarBody() { this->SetShape(CAR_BODY); }
+  void SetShapeToVase() { this->SetShape(VASE); }
+  void SetShapeToMissile() { this->SetShape(MISSILE); }
+  void SetShapeToSpring() { this->SetShape(SPRING); }
   ///@}
 
   ///@{

@@ -397,6 +397,20 @@ bool IsCorner(const Vec2& before, const Vec2& after, double tolerance)
 }
 
 //--------------------------------------------------------------------------------------------------
+Vec2 ChordAtEnd(const std::vector<Vec2>& polyline, int end, double tolerance)
+{
+  const std::vector<Vec2> points = WithoutRepeats(polyline, tolerance);
+  if (points.size() < 2)
+  {
+    return Vec2::Zero();
+  }
+  const auto last = std::ptrdiff_t(points.size()) - 1;
+  const Section all(points, false, tolerance);
+  return end == 0 ? Vec2(all.At(all.Reach(0, 1, WindowBow * tolerance)) - points.front())
+                  : Vec2(points.back() - all.At(all.Reach(last, -1, WindowBow * tolerance)));
+}
+
+//--------------------------------------------------------------------------------------------------
 std::vector<std::size_t> FindCorners(const std::vector<Vec2>& polyline, double tolerance)
 {
   const std::vector<Vec2> points = WithoutRepeats(polyline, tolerance);

@@ -50,6 +50,10 @@ bool IsCorner(const Vec2& before, const Vec2& after, double tolerance);
 /// polyline was made for, else its own vertices are corners.
 FittedPath FitPath(const std::vector<Vec2>& polyline, double tolerance);
 
+/// The chord that leads from a polyline's first point into it (`end` 0) or to its last point (1), as long
+/// as a straight line keeps within half the tolerance of the polyline: what IsCorner wants.
+Vec2 ChordAtEnd(const std::vector<Vec2>& polyline, int end, double tolerance);
+
 /// The vertices of a polyline that FitPath takes for corners (the ends of an open one not included).
 std::vector<std::size_t> FindCorners(const std::vector<Vec2>& polyline, double tolerance);
 

@@ -1,0 +1,23 @@
+# The ParaView plugin NURBS (Plugin/ParaView), where the VTK we build on is ParaView's.
+
+if (NOT NURBS_PARAVIEW_PLUGIN OR NOT NURBS_VTK_FLAVOUR_FOUND STREQUAL "paraview")
+  return ()
+endif ()
+
+# Only what the plugin links: ParaView as a whole would ask for more development files than Debian's
+# package brings (Documentation/decisions/vtk-of-paraview.md).
+set(ParaView_DIR "${NURBS_PARAVIEW_SDK}")
+find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews)
+message(STATUS "ParaView ${ParaView_VERSION}: ${ParaView_DIR}")
+
+paraview_plugin_scan(
+  PLUGIN_FILES "${PROJECT_SOURCE_DIR}/Plugin/ParaView/paraview.plugin"
+  PROVIDES_PLUGINS nurbs_plugins
+  ENABLE_BY_DEFAULT ON
+  HIDE_PLUGINS_FROM_CACHE ON)
+paraview_plugin_build(
+  PLUGINS ${nurbs_plugins}
+  PLUGINS_COMPONENT paraview
+  LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+  INSTALL_HEADERS OFF
+  DISABLE_XML_DOCUMENTATION ON)

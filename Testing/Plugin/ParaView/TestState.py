@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A session saved as .pvsm and .py and loaded again; a trace replayed; undo."""
+import session
+from paraview import simple, smstate, smtrace
+from session import LINKRODS, load_plugin, path, size, updated
+
+
+def build():
+    reader = simple.OpenDataFile(LINKRODS, registrationName="rods", LengthUnit="Metres")
+    bent = simple.NURBSFreeFormDeformation(
+        registrationName="bent", Input=reader, LatticeMoves=[3, 3, 3, 0.001, 0, 0.002]
+    )
+    mesh = simple.NURBSTessellator(registrationName="mesh", Input=bent, Tolerance=2e-4)
+    # As the GUI's Apply tells the trace of changes.
+    for proxy, changes in (
+        (mesh, {"ToleranceMode": "A length", "AbsoluteTolerance": 2e-6}),
+        (mesh.Camera, {"CameraPosition": [1.0, 2.0, 3.0]}),
+    ):
+        item = smtrace.PropertiesModified(proxy)
+        for name, value in changes.items():
+            setattr(proxy, name, value)
+        item.finalize()
+    simple.NURBSSilhouette(registrationName="lines", Input=bent, Direction=[1, 2, 3])
+    follower = simple.NURBSDeformingTessellator(registrationName="follower", Input=bent)
+    follower.Camera = "Nobody"
+    view = simple.CreateView("RenderView")
+    simple.Show(mesh, view)
+    return view
+
+
+def figures():
+    found = {name: simple.FindSource(name) for name in ("rods", "bent", "mesh", "lines", "follower")}
+    for proxy in found.values():
+        updated(proxy)
+    mesh = found["mesh"]
+    return (
+        [size(proxy) for proxy in found.values()],
+        list(found["bent"].LatticeMoves),
+        found["bent"].NumberOfMovedPoints,
+        (mesh.CertifiedError, mesh.AbsoluteTolerance, list(mesh.Camera.CameraPosition)),
+        list(found["lines"].Direction),
+    )
+
+
+def fresh_session():
+    simple.ResetSession()
+    assert not simple.GetSources()
+    session.load_plugin()
+
+
+def checked(kind, expected):
+    got = figures()
+    assert got == expected, "%s: %s instead of %s" % (kind, got, expected)
+    print("%-6s %s" % (kind, got[0]))
+
+
+load_plugin()
+smtrace.start_trace()
+build()
+trace = smtrace.stop_trace()
+expected = figures()
+print("built ", expected)
+assert expected[2] > 0 and 0 < expected[3][0] <= 2e-6
+simple.SaveState(path("plugin.pvsm"))
+with open(path("plugin.py"), "w") as file:
+    file.write(smstate.get_state())
+
+fresh_session()
+simple.LoadState(path("plugin.pvsm"))
+checked("pvsm", expected)
+
+for kind, text in (("py", open(path("plugin.py")).read()), ("trace", trace)):
+    assert "NURBSTessellator(" in text, kind
+    fresh_session()
+    exec(compile(text, kind, "exec"), {"__name__": "replayed"})
+    checked(kind, expected)
+print("passed")
