@@ -51,8 +51,8 @@ std::vector<LineEnd> EndsOf(const std::vector<PlaneLine>& lines, double toleranc
     {
       ends.push_back({ k, 0, points.front(), -ChordAtEnd(points, 0, tolerance),
         points.front().dot(KeyDirection) });
-      ends.push_back({ k, 1, points.back(), ChordAtEnd(points, 1, tolerance),
-        points.back().dot(KeyDirection) });
+      ends.push_back(
+        { k, 1, points.back(), ChordAtEnd(points, 1, tolerance), points.back().dot(KeyDirection) });
     }
   }
   return ends;
