@@ -307,6 +307,10 @@ void vtkNURBSDrawingWriter::Draw(Work& work)
   nurbs::DrawingLayer layers[2][KindCount];
   for (std::size_t k = 0; k < joined.size(); ++k)
   {
+    if (paths[k].Pieces.empty())
+    {
+      continue; // Seen end-on: a point but for rounding.
+    }
     const Origin& origin = work.Lines.Origins[joined[k].Members.front()];
     nurbs::DrawingStroke stroke;
     AddOrigins(joined[k], work.Lines, stroke);

@@ -373,6 +373,22 @@ TEST(NURBSDrawingWriter, JoinsWhatGoesOnAndNothingElse)
   EXPECT_EQ(edges, (std::vector<std::string>{ "1 2", "3 4", "5", "6", "7", "8", "8", "8" }));
 }
 
+// Edges that are seen end-on are points, but for rounding.
+TEST(NURBSDrawingWriter, LeavesPointsOut)
+{
+  Scene scene;
+  scene.Add({ { 0.0, 0.0 }, { 1.0, 2.0 } });
+  scene.Add({ { 0.3, 0.2 }, { 0.3, 0.2 }, { 0.3, 0.2 } });
+  scene.Add({ { 0.7, 0.2 }, { 0.7 + 1e-16, 0.2 }, { 0.7, 0.2 - 1e-16 } });
+  scene.Add({ { 0.5, 0.5 } });
+  vtkNew<vtkNURBSDrawingWriter> writer;
+  writer->SetInputData(scene.Data);
+  writer->SetFileName(FileName("points.svg").c_str());
+  pugi::xml_document document;
+  EXPECT_EQ(Paths(Written(writer, document)).size(), 1u);
+  EXPECT_EQ(writer->GetNumberOfVisiblePaths(), 1);
+}
+
 TEST(NURBSDrawingWriter, PagesAndScales)
 {
   Scene scene;
