@@ -16,9 +16,9 @@ bool PassesPixel(const GridLine& line, const GridPoint& p)
   {
     return false;
   }
-  // Within these bounds, a segment between pixels' centres passes a pixel if its straight line does:
-  // if corners are on both sides, or if it touches the lower left corner, the only one that belongs
-  // to the pixel (and does so with the edges at it). Twice the centre's distance is `side`.
+  // Within these bounds, a segment between pixels' centres passes a pixel if its straight line
+  // does: if corners are on both sides, or if it touches the lower left corner, the only one that
+  // belongs to the pixel (and does so with the edges at it). Twice the centre's distance is `side`.
   const std::int64_t side = 2 * Turn(line.Start, line.End, p);
   return std::abs(side) < std::abs(dx) + std::abs(dy) || side == dx - dy;
 }

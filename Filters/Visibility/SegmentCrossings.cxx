@@ -13,7 +13,8 @@ namespace
 
 __extension__ using Wide = __int128;
 
-// A line that is not vertical, with the events (ranks of distinct abscissae) that it starts and ends at.
+// A line that is not vertical, with the events (ranks of distinct abscissae) that it starts and
+// ends at.
 struct SweepLine
 {
   std::int32_t X0, Y0, X1, Y1;
@@ -160,8 +161,8 @@ SweepInput::SweepInput(const std::vector<GridLine>& lines)
   }
 }
 
-// Balaban's search in the strip between two events. Lines that touch at the strip's left end only, or
-// whose order just to the left of it is not the one in the strip, count as crossing there; each
+// Balaban's search in the strip between two events. Lines that touch at the strip's left end only,
+// or whose order just to the left of it is not the one in the strip, count as crossing there; each
 // candidate is tested exactly, so that it does no harm to find one in vain or twice.
 class StripSearch
 {
@@ -273,7 +274,8 @@ private:
       lines;
   }
 
-  // From its place in the staircase, the steps that a line crosses until it ends or leaves the strip.
+  // From its place in the staircase, the steps that a line crosses until it ends or leaves the
+  // strip.
   void Walk(std::int32_t line, std::size_t place, int end, std::size_t base)
   {
     const std::size_t count = this->Stairs.size() - base;

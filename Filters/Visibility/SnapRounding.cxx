@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 namespace nurbs
 {
@@ -28,6 +28,10 @@ void CheckInput(const std::vector<GridPoint>& points, const std::vector<GridSegm
     {
       throw Error("SnapRound: a coordinate exceeds 2^29 pixels");
     }
+  }
+  if (segments.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw Error("SnapRound: more than 2^31 - 1 segments");
   }
   for (const GridSegment& s : segments)
   {

@@ -362,7 +362,8 @@ TEST(SnapRounding, NeedlesAtTheLimit)
 
 TEST(SnapRounding, CornersBelongToOnePixel)
 {
-  // Diagonals through corners of the pixel (1, 1) and its neighbours, which other segments make hot.
+  // Diagonals through corners of the pixel (1, 1) and its neighbours, which other segments make
+  // hot.
   Drawing d;
   d.Add({ 0, 1 }, { 1, 0 });
   d.Add({ 1, 2 }, { 2, 1 });

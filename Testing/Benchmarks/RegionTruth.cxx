@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RegionTruth.h"
+
+#include <algorithm>
+#include <mutex>
+#include <random>
+
+namespace truth
+{
+
+using nurbs::Vec2;
+using nurbs::Vec3;
+
+namespace
+{
+
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+void ChooseAxes(ImageView& view)
+{
+  const Vec3 up = std::abs(view.Toward[2]) < 0.9 ? Vec3::UnitZ() : Vec3::UnitY();
+  view.Right = up.cross(view.Toward).normalized();
+  view.Up = view.Toward.cross(view.Right);
+}
+
+double DistanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b)
+{
+  const Vec2 chord = b - a;
+  const double length = chord.squaredNorm();
+  const double part = length > 0.0 ? std::clamp((p - a).dot(chord) / length, 0.0, 1.0) : 0.0;
+  return (a + part * chord - p).norm();
+}
+
+/// The box of the model in the image.
+nurbs::Box2 ImageBox(const ImageView& view, const nurbs::Box3& box)
+{
+  nurbs::Box2 image;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    image.extend(view.Project(box.corner(static_cast<nurbs::Box3::CornerType>(corner))));
+  }
+  return image;
+}
+
+void Merge(const RegionCheck& part, RegionCheck& all, std::size_t list)
+{
+  all.Rays += part.Rays;
+  all.Hits += part.Hits;
+  all.Agree += part.Agree;
+  all.Within += part.Within;
+  all.Near += part.Near;
+  all.Wrong += part.Wrong;
+  all.MissedFaces += part.MissedFaces;
+  all.Worst = std::max(all.Worst, part.Worst);
+  for (std::size_t k = 0; k < part.List.size() && all.List.size() < list; ++k)
+  {
+    all.List.push_back(part.List[k]);
+  }
+}
+
+} // namespace
+
+ImageView ImageView::Parallel(const nurbs::Box3& box, const Vec3& direction)
+{
+  ImageView view;
+  view.Toward = direction.normalized();
+  view.Center = box.center();
+  ChooseAxes(view);
+  return view;
+}
+
+ImageView ImageView::FromEye(const nurbs::Box3& box, const Vec3& eye)
+{
+  ImageView view;
+  view.Perspective = true;
+  view.Eye = eye;
+  view.Center = box.center();
+  view.Toward = (eye - view.Center).normalized();
+  ChooseAxes(view);
+  return view;
+}
+
+double ImageView::Scale(const Vec3& point) const
+{
+  return this->Perspective
+    ? (this->Eye - this->Center).norm() / (this->Eye - point).dot(this->Toward)
+    : 1.0;
+}
+
+Vec2 ImageView::Project(const Vec3& point) const
+{
+  const Vec3 from =
+    this->Perspective ? Vec3(this->Scale(point) * (point - this->Eye)) : Vec3(point - this->Center);
+  return Vec2(from.dot(this->Right), from.dot(this->Up));
+}
+
+nurbs::Ray ImageView::RayOf(const Vec2& image, double size) const
+{
+  const Vec3 place = this->Center + image[0] * this->Right + image[1] * this->Up;
+  nurbs::Ray ray;
+  ray.Origin = this->Perspective ? this->Eye : Vec3(place + size * this->Toward);
+  ray.Direction = this->Perspective ? Vec3((place - this->Eye).normalized()) : Vec3(-this->Toward);
+  return ray;
+}
+
+RegionTruth::RegionTruth(const nurbs::RayCaster& caster, const nurbs::Model& regions,
+  const std::vector<std::int64_t>& sources, const ImageView& view, double precision, bool areHidden,
+  const nurbs::ParallelFor& parallel)
+  : Caster(caster)
+  , Regions(regions)
+  , Trims(regions, parallel)
+  , View(view)
+  , Precision(precision)
+  , AreHidden(areHidden)
+  , Parallel(parallel)
+  , RegionsOf(caster.GetModel().Faces.size())
+  , Borders(caster.GetModel().Faces.size())
+{
+  for (std::size_t f = 0; f < sources.size(); ++f)
+  {
+    this->RegionsOf.at(sources[f]).push_back(static_cast<std::int64_t>(f));
+    this->AddBorder(regions.Faces[f], this->Borders[sources[f]]);
+  }
+}
+
+void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const
+{
+  constexpr int Parts = 8; // Of a knot span: borders are lifted to the surface.
+  Vec3 before = Vec3::Zero();
+  const auto add = [&](const Vec2& uv, bool first) {
+    const Vec3 point = nurbs::Evaluate(face.Geometry, uv[0], uv[1]);
+    if (!first)
+    {
+      border.push_back(
+        { this->View.Project(before), this->View.Project(point), this->View.Scale(point) });
+    }
+    before = point;
+  };
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const nurbs::TrimLoop& loop = this->Regions.Loops[l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      for (const nurbs::BezierCurve<2>& piece :
+        nurbs::ToBezier(this->Regions.TrimCurves[c].Geometry))
+      {
+        for (int k = 0; k <= Parts; ++k)
+        {
+          add(piece.Evaluate(static_cast<double>(k) / Parts), k == 0);
+        }
+      }
+    }
+  }
+  const nurbs::Interval u = face.Geometry.Domain(0), v = face.Geometry.Domain(1);
+  const Vec2 corners[5] = { { u.Min, v.Min }, { u.Max, v.Min }, { u.Max, v.Max }, { u.Min, v.Max },
+    { u.Min, v.Min } };
+  for (int side = 0; side < 4 && face.LoopCount == 0; ++side)
+  {
+    const int parts = Parts * 8 * face.Geometry.Count[side % 2];
+    for (int k = 0; k <= parts; ++k)
+    {
+      const double part = static_cast<double>(k) / parts;
+      add(corners[side] + part * (corners[side + 1] - corners[side]), k == 0);
+    }
+  }
+}
+
+double RegionTruth::DistanceToBorder(std::int64_t face, const Vec3& point) const
+{
+  const Vec2 image = this->View.Project(point);
+  double nearest = Infinite;
+  for (const Segment& segment : this->Borders[face])
+  {
+    const double distance = DistanceToSegment(image, segment.From, segment.To);
+    nearest = std::min(nearest, distance / segment.Scale);
+  }
+  return nearest;
+}
+
+void RegionTruth::Judge(
+  const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const
+{
+  bool inside = false;
+  for (const std::int64_t region : this->RegionsOf[hit.Face])
+  {
+    inside = inside || this->Trims.Inside(region, hit.U, hit.V);
+  }
+  ++check.Hits;
+  if (inside == (isFront != this->AreHidden))
+  {
+    ++check.Agree;
+    return;
+  }
+  const double distance = this->DistanceToBorder(hit.Face, hit.Point);
+  if (distance <= this->Precision)
+  {
+    ++check.Within;
+    return;
+  }
+  ++(distance <= 10.0 * this->Precision ? check.Near : check.Wrong);
+  check.MissedFaces += distance == Infinite ? 1 : 0;
+  if (distance != Infinite)
+  {
+    check.Worst = std::max(check.Worst, distance / this->Precision);
+  }
+  if (check.List.size() < list)
+  {
+    check.List.push_back({ hit.Face, Vec2(hit.U, hit.V), hit.Point, isFront, distance });
+  }
+}
+
+RegionCheck RegionTruth::Check(std::int64_t rays, std::size_t list) const
+{
+  const nurbs::Box2 image = ImageBox(this->View, this->Caster.Bounds());
+  const double size = this->Caster.Bounds().diagonal().norm();
+  const double cell =
+    std::sqrt(image.volume() / static_cast<double>(std::max<std::int64_t>(1, rays)));
+  const auto columns = std::max<std::int64_t>(1, std::llround(image.sizes()[0] / cell));
+  const auto rows = std::max<std::int64_t>(1, std::llround(image.sizes()[1] / cell));
+  RegionCheck all;
+  std::mutex mutex;
+  this->Parallel(0, rows, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<nurbs::RayHit> hits;
+    for (std::int64_t row = begin; row < end; ++row)
+    {
+      std::mt19937_64 engine(static_cast<std::uint64_t>(row));
+      std::uniform_real_distribution<double> random(0.0, 1.0);
+      RegionCheck part;
+      for (std::int64_t column = 0; column < columns; ++column)
+      {
+        const Vec2 at((column + random(engine)) / columns, (row + random(engine)) / rows);
+        this->Caster.All(
+          this->View.RayOf(image.min() + at.cwiseProduct(image.sizes()), size), hits);
+        ++part.Rays;
+        for (std::size_t k = 0; k < hits.size(); ++k)
+        {
+          this->Judge(hits[k], k == 0, part, list);
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      Merge(part, all, list);
+    }
+  });
+  return all;
+}
+
+} // namespace truth
