@@ -378,7 +378,8 @@ void AddViewing(CLI::App* command, Arguments& arguments)
     ->check(Positive())
     ->group(group);
   command
-    ->add_flag("--one-sided{false}", arguments.BothSides,
+    ->add_flag_callback(
+      "--one-sided", [&arguments] { arguments.BothSides = false; },
       "faces seen from behind are not visible, and still hide")
     ->group(group);
 }
@@ -393,8 +394,12 @@ void AddDrawing(CLI::App& app, Arguments& arguments)
     ->required();
   AddViewing(command, arguments);
   const std::string group = "The drawing";
-  command->add_flag("--hidden,!--no-hidden", arguments.HiddenLines, "draw hidden lines (default)")
-    ->group(group);
+  CLI::Option* hidden = command->add_flag("--hidden", "draw hidden lines (default)")->group(group);
+  command
+    ->add_flag_callback(
+      "--no-hidden", [&arguments] { arguments.HiddenLines = false; }, "leave hidden lines out")
+    ->group(group)
+    ->excludes(hidden);
   command->add_flag("--smooth", arguments.SmoothEdges, "draw edges where faces meet smoothly, too")
     ->group(group);
   command
