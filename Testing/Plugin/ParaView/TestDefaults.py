@@ -11,6 +11,7 @@ LEFT_OUT = {
     "vtkNURBSControlPointEdits": ["BlockControlPointWeight"],  # A table.
     "vtkNURBSFreeFormDeformation": ["Lattice", "LatticeDisplacement"],  # An input, a table.
     "vtkNURBSSilhouette": ["Camera"],  # Direction and EyePoint tell the view.
+    "vtkNURBSVisibleRegions": ["Camera"],  # Likewise.
 }
 
 

@@ -89,6 +89,14 @@ camera.Azimuth(30)
 camera.Elevation(25)
 view.CameraParallelProjection = 1
 
+# Models are surfaces, second outputs are not.
+for name, second in (("NURBSVisibleRegions", "Surface"), ("NURBSFreeFormDeformation", "Wireframe")):
+    made = getattr(simple, name)(Input=reader)
+    for port, wanted in enumerate(["NURBS Surface", second]):
+        shown = simple.Show(simple.OutputPort(made, port), view).Representation
+        assert shown == wanted, (name, port, shown)
+        simple.Hide(simple.OutputPort(made, port), view)
+
 # Lit, and without an array: where it is, and how bright.
 lit = picture("surface.png")
 simple.Hide(reader, view)
