@@ -472,21 +472,25 @@ class Drawing(Folder):
         self.assertEqual(report["lines"], report["visible_lines"])
 
     def test_views(self):
-        boxes = {}
-        for view in ("front", "top", "0,-1,0", "--eye", "--up"):
-            options = {
-                "--eye": ("--eye", "0,-60,10"),
-                "--up": ("--view", "front", "--up", "1,0,0"),
-            }.get(view, ("--view", view))
-            _, groups, report = self.svg("--scale", "1", *options)
-            boxes[view] = self.box(groups)
-        self.assertEqual(boxes["front"], boxes["0,-1,0"])
-        self.assertGreater(boxes["front"][1], 2 * boxes["front"][0])  # A screw that stands
-        self.assertAlmostEqual(boxes["top"][0], boxes["top"][1], delta=0.05)
-        self.assertAlmostEqual(boxes["top"][0], boxes["front"][0], delta=0.05)
-        for a, b in zip(boxes["--up"], reversed(boxes["front"])):
-            self.assertAlmostEqual(a, b, delta=0.05)
-        self.assertNotAlmostEqual(boxes["--eye"][1], boxes["front"][1], delta=0.05)
+        torus = self.shape("Torus")
+
+        def box(*options):
+            _, groups, report = self.svg("--scale", "1:1", *options, model=torus)
+            width, height = self.box(groups)
+            return width / report["scale"], height / report["scale"], 3 * report["precision"]
+
+        def same(a, b):
+            self.assertAlmostEqual(a[0], b[0], delta=a[2])
+            self.assertAlmostEqual(a[1], b[1], delta=a[2])
+
+        width, height, within = front = box("--view", "front")
+        self.assertGreater(width, 1.5 * height)
+        same(box("--view", "left"), front)
+        same(box("--view=0,-2,0"), front)
+        same(box("--view", "top"), (width, width))
+        same(box("--view", "front", "--up", "1,0,0"), (height, width))
+        near = box("--eye", f"0,{-2 * width},0")
+        self.assertGreater(abs(near[1] / near[0] - height / width), within)
 
     def test_pages(self):
         root, _, report = self.svg("--page", "a3-landscape", "--scale", "1:2")
