@@ -52,8 +52,8 @@ Cubic Part(const Cubic& c, double from, double to)
   return to < 1.0 ? Split(rest, (to - from) / (1.0 - from)).first : rest;
 }
 
-// Whether all of a curve is within the tolerance of a segment. The distance from a segment is convex,
-// so it is largest at a control point.
+// Whether all of a curve is within the tolerance of a segment. The distance from a segment is
+// convex, so it is largest at a control point.
 bool IsNear(const Cubic& c, const Vec2& a, const Vec2& b, double tolerance, int depth)
 {
   const double ends = std::max(SegmentDistance(c[0], a, b), SegmentDistance(c[3], a, b));
@@ -133,11 +133,11 @@ Samples MakeSamples(const Vec2* points, const std::vector<double>& lengths)
   return samples;
 }
 
-// Least squares: each inner control point is two numbers, or the distance along a given tangent. With
-// distances that are not positive, the curve would turn back at once; a third of the chord is taken
-// then, after Wu and Barsky. Parameters follow residuals along the curve anyway, which therefore weigh
-// little if a curve that is near (`last`) tells the directions: this converges in a few rounds, where
-// equal weights crawl.
+// Least squares: each inner control point is two numbers, or the distance along a given tangent.
+// With distances that are not positive, the curve would turn back at once; a third of the chord is
+// taken then, after Wu and Barsky. Parameters follow residuals along the curve anyway, which
+// therefore weigh little if a curve that is near (`last`) tells the directions: this converges in a
+// few rounds, where equal weights crawl.
 Cubic Solve(const Samples& samples, const CubicEnds& ends, const Cubic* last)
 {
   Cubic c;

@@ -40,7 +40,8 @@ struct Drawing
 /// Dashes and the gaps between them, in line widths (ISO 128-2, line 02).
 inline constexpr double DashWidths = 12.0, GapWidths = 3.0;
 
-/// A number with at most `digits` after the point and no zeros at the end, the same in every locale.
+/// A number with at most `digits` after the point and no zeros at the end, the same in every
+/// locale.
 std::string DrawingNumber(double value, int digits);
 
 /// The drawing's title, source, view and scale as one sentence.

@@ -29,8 +29,9 @@ double AngleBetween(const Vec2& a, const Vec2& b)
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
 
-// The angle at the common point of two chords, as the bow of a curve through their ends whose tangent
-// there divides the angle best: an arc over a chord c that leaves it at an angle t bows by c t / 4.
+// The angle at the common point of two chords, as the bow of a curve through their ends whose
+// tangent there divides the angle best: an arc over a chord c that leaves it at an angle t bows by
+// c t / 4.
 double LeastBow(const Vec2& before, const Vec2& after)
 {
   const double a = before.norm(), b = after.norm();
@@ -69,8 +70,8 @@ public:
 
   std::vector<PathPiece> Fit();
 
-  // The farthest vertex from `from` on, forwards or backwards, to which a straight line keeps within
-  // `bow` of all vertices between, by the sector of directions that they leave; the first
+  // The farthest vertex from `from` on, forwards or backwards, to which a straight line keeps
+  // within `bow` of all vertices between, by the sector of directions that they leave; the first
   // neighbour at least. Indices of a loop go on past its ends.
   std::ptrdiff_t Reach(std::ptrdiff_t from, int step, double bow) const;
 
@@ -225,8 +226,8 @@ std::vector<Section::Run> Section::FindRuns()
   return runs;
 }
 
-// The tangent at a vertex within smooth surroundings: that of the circle through it and one vertex to
-// each side.
+// The tangent at a vertex within smooth surroundings: that of the circle through it and one vertex
+// to each side.
 Vec2 Section::Tangent(std::size_t at) const
 {
   const auto k = std::ptrdiff_t(at);
@@ -238,7 +239,8 @@ Vec2 Section::Tangent(std::size_t at) const
   return tangent.isZero() ? after.normalized() : tangent.normalized();
 }
 
-// The longest piece that starts at `first` and keeps within the tolerance, by doubling and bisection.
+// The longest piece that starts at `first` and keeps within the tolerance, by doubling and
+// bisection.
 std::pair<std::size_t, PathPiece> Section::LongestPiece(
   std::size_t first, const Run& run, const CubicEnds& ends, double tolerance) const
 {

@@ -58,7 +58,8 @@ std::vector<LineEnd> EndsOf(const std::vector<PlaneLine>& lines, double toleranc
   return ends;
 }
 
-// All pairs of ends that may be joined, those that turn least first. Ends are sorted by group and key.
+// All pairs of ends that may be joined, those that turn least first. Ends are sorted by group and
+// key.
 std::vector<Pair> FindPairs(const std::vector<PlaneLine>& lines, const std::vector<LineEnd>& ends,
   double reach, double tolerance)
 {
@@ -113,7 +114,8 @@ Links LinkEnds(const std::vector<PlaneLine>& lines, double reach, double toleran
   return links;
 }
 
-// The end of a chain that a line belongs to, against the line's direction; of a loop the line's own.
+// The end of a chain that a line belongs to, against the line's direction; of a loop the line's
+// own.
 std::size_t StartOfChain(const Links& links, std::size_t line)
 {
   std::size_t end = 2 * line;

@@ -25,10 +25,10 @@ struct JoinedLine
   std::vector<std::size_t> Members; ///< The lines, in order.
 };
 
-/// Joins ends that are within `reach` of each other where the line goes on without a corner (IsCorner
-/// with `tolerance`) or both lines are of one source; of several such ends, those that turn least. Lines
-/// without two different points are left out. The result is in the order of first members; joined
-/// lines keep all of their points but one at each joint.
+/// Joins ends that are within `reach` of each other where the line goes on without a corner
+/// (IsCorner with `tolerance`) or both lines are of one source; of several such ends, those that
+/// turn least. Lines without two different points are left out. The result is in the order of first
+/// members; joined lines keep all of their points but one at each joint.
 std::vector<JoinedLine> JoinLines(
   const std::vector<PlaneLine>& lines, double reach, double tolerance);
 

@@ -31,14 +31,15 @@ struct Lines
 {
   std::vector<nurbs::PlaneLine> Geometry;
   std::vector<Origin> Origins; ///< One a line.
-  /// Of a composite data set's leaves: their names, or their numbers from 0. Of a single data set: "".
+  /// Of a composite data set's leaves: their names, or their numbers from 0. Of a single data set:
+  /// "".
   std::vector<std::string> Parts;
   std::string Unit; ///< LengthUnit of the first part that has one.
   nurbs::Box2 Box;
 };
 
-/// All lines of a vtkPolyData or a composite data set; hidden ones only if wanted. Returns what is wrong,
-/// or "".
+/// All lines of a vtkPolyData or a composite data set; hidden ones only if wanted. Returns what is
+/// wrong, or "".
 std::string Collect(vtkDataObject* input, bool hidden, Lines& lines);
 
 } // namespace vtkNURBSDrawingLines

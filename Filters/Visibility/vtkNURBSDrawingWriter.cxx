@@ -13,8 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -367,7 +367,12 @@ bool vtkNURBSDrawingWriter::Save(const Work& work)
   file.close();
   if (!file)
   {
-    std::remove(this->FileName);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(
+          std::filesystem::symlink_status(this->FileName, ignored))) // No device, no link.
+    {
+      std::filesystem::remove(this->FileName, ignored);
+    }
     return this->Fail(vtkErrorCode::OutOfDiskSpaceError,
       "cannot write " + std::string(this->FileName) + ": no space left");
   }

@@ -4,32 +4,33 @@
  * @brief Writes lines in a plane as an engineering drawing: SVG or PDF with true curves and layers.
  *
  * The input is a vtkPolyData of lines and polylines, or a composite data set of such, in the plane
- * (x right, y up; z is ignored), in model units: output 1 of vtkNURBSVisibleRegions with ProjectLines
- * on, or any other lines. Lines that go on in each other without a corner become one path, and each path
- * is fitted by as few cubic Bezier pieces and straight lines as Tolerance allows, so that a circle is
- * some six curves rather than hundreds of segments.
+ * (x right, y up; z is ignored), in model units: output 1 of vtkNURBSVisibleRegions with
+ * ProjectLines on, or any other lines. Lines that go on in each other without a corner become one
+ * path, and each path is fitted by as few cubic Bezier pieces and straight lines as Tolerance
+ * allows, so that a circle is some six curves rather than hundreds of segments.
  *
  * | cell data | meaning; each may be missing |
  * |---|---|
  * | Visibility | 1 visible (default), 0 hidden: drawn dashed, below the visible ones |
  * | Kind | 0 silhouette, 1 boundary, 2 sharp edge (default), 3 smooth edge, 4 intersection |
- * | FaceId, EdgeId | where a line comes from: data-face and data-edge of its path in SVG; negative: none |
+ * | FaceId, EdgeId | where a line comes from; negative: none. In SVG: data-face, data-edge |
  *
- * The field data LengthUnit ("mm", "m", "in", ...; mm if missing) tells what a model unit is, for the scale that
- * the file states. In SVG, the groups "visible" and "hidden" hold a group a kind of line, with an id as
- * "hidden-sharp", the classes "hidden sharp", and paths in millimetres; all groups are layers of
- * Inkscape. A path of an assembly's part also has data-part, the part's name. In PDF the kinds
- * are layers that can be switched off.
+ * The field data LengthUnit ("mm", "m", "in", ...; mm if missing) tells what a model unit is, for
+ * the scale that the file states. In SVG, the groups "visible" and "hidden" hold a group a kind of
+ * line, with an id as "hidden-sharp", the classes "hidden sharp", and paths in millimetres; all
+ * groups are layers of Inkscape. A path of an assembly's part also has data-part, the part's name.
+ * In PDF the kinds are layers that can be switched off.
  *
- * Errors set the error code and leave no file: no file name, an ending that is not .svg or .pdf (without
- * Format), no lines with a length, a coordinate that is not finite, a drawing that does not fit its page,
- * widths or a tolerance that are not positive, a file that can't be written.
+ * Errors set the error code and leave no file: no file name, an ending that is not .svg or .pdf
+ * (without Format), no lines with a length, a coordinate that is not finite, a drawing that does
+ * not fit its page, widths or a tolerance that are not positive, a file that can't be written.
  *
  * Source of the pieces: P. J. Schneider, "An algorithm for automatically fitting digitized curves",
- * Graphics Gems (1990), with changes that PathFit.h tells. Line widths, dashes and layers follow ISO
- * 128-2. Documentation/decisions/drawing-files.md tells which libraries write the files, and why.
+ * Graphics Gems (1990), with changes that PathFit.h tells. Line widths, dashes and layers follow
+ * ISO 128-2. Documentation/decisions/drawing-files.md tells which libraries write the files, and
+ * why.
  *
- * @sa vtkNURBSSilhouette
+ * @sa vtkNURBSVisibleRegions vtkNURBSSilhouette
  */
 #ifndef vtkNURBSDrawingWriter_h
 #define vtkNURBSDrawingWriter_h
@@ -72,8 +73,8 @@ public:
 
   ///@{
   /**
-   * Millimetres of paper a model unit. 0 (default): as large as fits PageSize, and an A4 sheet if that is
-   * TIGHT.
+   * Millimetres of paper a model unit. 0 (default): as large as fits PageSize, and an A4 sheet if
+   * that is TIGHT.
    */
   vtkSetMacro(Scale, double);
   vtkGetMacro(Scale, double);
@@ -91,8 +92,8 @@ public:
 
   ///@{
   /**
-   * The page: as large as the drawing with its margin (TIGHT, default), or a sheet (ISO 216), in whose
-   * middle the drawing is.
+   * The page: as large as the drawing with its margin (TIGHT, default), or a sheet (ISO 216), in
+   * whose middle the drawing is.
    */
   vtkSetClampMacro(PageSize, int, TIGHT, A0);
   vtkGetMacro(PageSize, int);
@@ -107,8 +108,8 @@ public:
 
   ///@{
   /**
-   * How the sheet lies: as suits the drawing (AUTOMATIC, default), or told. Nothing to a TIGHT page,
-   * unless Scale is 0.
+   * How the sheet lies: as suits the drawing (AUTOMATIC, default), or told. Nothing to a TIGHT
+   * page, unless Scale is 0.
    */
   vtkSetClampMacro(Orientation, int, AUTOMATIC, PORTRAIT);
   vtkGetMacro(Orientation, int);
@@ -135,8 +136,8 @@ public:
   ///@{
   /**
    * Widths of lines in millimetres: visible silhouettes and boundaries (default 0.5), visible sharp
-   * edges and intersections (0.35), visible and hidden smooth edges (0.18), other hidden lines (0.25).
-   * Must be positive.
+   * edges and intersections (0.35), visible and hidden smooth edges (0.18), other hidden lines
+   * (0.25). Must be positive.
    */
   vtkSetMacro(OutlineWidth, double);
   vtkGetMacro(OutlineWidth, double);
@@ -177,8 +178,8 @@ public:
 
   ///@{
   /**
-   * What the file tells of itself: a title (default: the file's name without folder and ending), where the
-   * drawing comes from, such as a CAD file's name, and the view, such as "front". UTF-8.
+   * What the file tells of itself: a title (default: the file's name without folder and ending),
+   * where the drawing comes from, such as a CAD file's name, and the view, such as "front". UTF-8.
    */
   vtkSetStringMacro(Title);
   vtkGetStringMacro(Title);
@@ -190,8 +191,9 @@ public:
 
   ///@{
   /**
-   * Of the last file: paths and their pieces (Bezier curves and straight lines), visible and hidden;
-   * millimetres a model unit; the page in millimetres. 0 before the first one and after an error.
+   * Of the last file: paths and their pieces (Bezier curves and straight lines), visible and
+   * hidden; millimetres a model unit; the page in millimetres. 0 before the first one and after an
+   * error.
    */
   vtkGetMacro(NumberOfVisiblePaths, vtkIdType);
   vtkGetMacro(NumberOfHiddenPaths, vtkIdType);

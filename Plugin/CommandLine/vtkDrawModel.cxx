@@ -145,14 +145,15 @@ vtkSmartPointer<vtkDataObject> LookAt(vtkDataObject* model, const Arguments& arg
 {
   const auto started = std::chrono::steady_clock::now();
   const bool drawing = arguments.What == Command::Drawing;
-  if (!drawing && !vtkUnstructuredGrid::SafeDownCast(model))
+  const std::vector<vtkUnstructuredGrid*> parts = PartsOf(model);
+  if (!drawing && parts.size() > 1)
   {
     throw Failure("cannot use " + arguments.Model + ": it has several parts, save one as .vtu");
   }
   report.Precision = arguments.Precision * Diagonal(model);
   vtkNew<vtkNURBSVisibleRegions> regions;
   Configure(regions, arguments, LinePrecision(arguments, report));
-  regions->SetInputDataObject(0, model);
+  regions->SetInputDataObject(0, parts.size() == 1 ? parts.front() : model);
   Run(regions, progress);
   Fill(regions, report);
   report.VisibilitySeconds =

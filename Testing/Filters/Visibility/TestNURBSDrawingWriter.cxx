@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkNURBSDrawingWriter: files read again by pugixml and QPDF, compared with the lines that went in.
+// vtkNURBSDrawingWriter: files read again by pugixml and QPDF, compared with the lines that went
+// in.
 #include "../../testMessageKeeper.h"
 #include "vtkNURBSDrawingWriter.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polylines fitted by Bezier pieces: how many, how near by dense samples both ways, corners, straight
-// runs, tangents, and degenerate input.
+// Polylines fitted by Bezier pieces: how many, how near by dense samples both ways, corners,
+// straight runs, tangents, and degenerate input.
 #include "PathFit.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ Polyline Sampled(const FittedPath& path)
   return samples;
 }
 
-// By how much chords between the samples of a path may bow: the second derivative is at most 6 times
-// a second difference of control points.
+// By how much chords between the samples of a path may bow: the second derivative is at most 6
+// times a second difference of control points.
 double BowOfSamples(const FittedPath& path)
 {
   double largest = 0.0;

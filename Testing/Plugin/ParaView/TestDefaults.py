@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every property's default is its class's own, every setting of a class has a property."""
-import session
 from paraview import servermanager
 from session import FILTERS, load_plugin
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plugin loaded twice, reader through the factory, every filter on its default values."""
-import session
 from paraview import simple
 from session import FILTERS, LINKRODS, leaves, load_plugin, size, updated
 

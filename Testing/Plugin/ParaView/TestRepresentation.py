@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The representation NURBS Surface, pixel by pixel beside the tessellator's triangles."""
 import numpy as np
-import session
 import vtknurbs
 from paraview import simple
 from session import SCREW, load_plugin, path, size, updated
