@@ -123,3 +123,36 @@ TEST(VisibleRegions, Ball)
     ball.Check(1e-3, 60);
   }
 }
+
+TEST(VisibleRegions, Teapot)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case teapot;
+    nurbs::AddTeapot(teapot.Builder);
+    teapot.Run(viewer, 1e-3);
+    teapot.Check(1e-3, 80);
+    EXPECT_EQ(teapot.Result.Piercing.size(), 0u);
+  }
+}
+
+TEST(VisibleRegions, PiercingSpheres)
+{
+  for (const Viewer& viewer : Views)
+  {
+    for (const double precision : { 1e-2, 1e-4 })
+    {
+      Case spheres;
+      nurbs::AddSphere(spheres.Builder, 1.0);
+      const std::size_t first = spheres.Builder.Data.Points.size();
+      nurbs::AddSphere(spheres.Builder, 1.0);
+      for (std::size_t k = first; k < spheres.Builder.Data.Points.size(); k += 3)
+      {
+        Eigen::Map<Vec3>(spheres.Builder.Data.Points.data() + k) += Vec3(0.5, -0.3, 0.6);
+      }
+      spheres.Run(viewer, precision);
+      spheres.Check(precision, 80);
+      EXPECT_EQ(spheres.Result.Piercing.size(), 0u);
+    }
+  }
+}
