@@ -24,6 +24,9 @@ constexpr double TouchShare = 0.25;
 constexpr double ChordShare = 0.9;
 // Smallest parts of patches, in precisions.
 constexpr double SmallestPart = 4.0;
+// Halvings of both faces' patches together, at most.
+constexpr int SharedDepth = 12;
+constexpr int MaxDepth = 60;
 // Tests of parts of one pair of faces, and more for each pair of their patches.
 constexpr std::int64_t PairTests = 20000;
 constexpr std::int64_t PatchTests = 2000;
@@ -225,7 +228,8 @@ void PairFinder::Intersect(
   const double tolerance = this->ToleranceOf({ head.Face[0], head.Face[1] }, shares);
   SurfacePair pair(*a.Evaluator, a.Domain, *b.Evaluator, b.Domain, this->Size);
   SeedSearch search(pair, *a.Cover, *b.Cover,
-    { tolerance, SmallestPart * precision, PairTests + PatchTests * std::int64_t(last - first) });
+    { tolerance, SmallestPart * precision, PairTests + PatchTests * std::int64_t(last - first),
+      shares ? SharedDepth : MaxDepth });
   std::map<std::size_t, IntersectionCell> cells[2];
   for (std::size_t k = first; k < last; ++k)
   {

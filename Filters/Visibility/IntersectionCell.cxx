@@ -16,6 +16,8 @@ const double Pi = std::acos(-1.0);
 constexpr int MaxPlaneSteps = 8;
 // Vectors shorter than that share of the longest are none: at poles.
 constexpr double TinyShare = 1e-9;
+// Of arc cosines near 1.
+constexpr double AngleRounding = 1e-7;
 // Cones of an arc and a cell, together: as far as the first linear step is good.
 constexpr double WidestArcCones = 0.4;
 constexpr double ConesOfSlope = 0.6;
@@ -38,22 +40,21 @@ DirectionCone ConeOf(const std::vector<Vec3>& vectors, double ball)
     return out;
   }
   out.Axis = sum / length;
-  double angle = 0.0;
+  double cosine = 1.0;
+  double shortest = longest;
   for (const Vec3& v : vectors)
   {
     const double norm = v.norm();
-    if (norm <= TinyShare * longest && ball <= TinyShare * longest)
+    if (norm > TinyShare * longest || ball > TinyShare * longest)
     {
-      continue;
+      shortest = std::min(shortest, norm);
+      cosine = std::min(cosine, out.Axis.dot(v) / std::max(norm, 1e-300));
     }
-    if (norm <= ball)
-    {
-      return out;
-    }
-    angle = std::max(
-      angle, std::atan2(out.Axis.cross(v).norm(), out.Axis.dot(v)) + std::asin(ball / norm));
   }
-  out.Angle = angle;
+  if (ball < shortest)
+  {
+    out.Angle = std::acos(std::max(cosine, -1.0)) + std::asin(ball / shortest) + AngleRounding;
+  }
   return out;
 }
 
@@ -136,14 +137,6 @@ Interval Along(const std::vector<Vec3>& hull, const Vec3& axis)
   return out;
 }
 
-// Overlap of two hulls along an axis; negative: the width of the gap.
-double Overlap(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Vec3& axis)
-{
-  const Interval ia = Along(a, axis);
-  const Interval ib = Along(b, axis);
-  return std::min(ia.Max - ib.Min, ib.Max - ia.Min);
-}
-
 // Which sides of a cell, as bits 2 dir + end, have all control points that are not below `least` along
 // the axis.
 int SidesAbove(const IntersectionCell& cell, const Vec3& axis, double least)
@@ -163,12 +156,11 @@ int SidesAbove(const IntersectionCell& cell, const Vec3& axis, double least)
   return sides;
 }
 
-// What it means that cell a lies before cell b along an axis, but for `tolerance`.
-CellMeeting Touch(
-  const IntersectionCell& a, const IntersectionCell& b, const Vec3& axis, double tolerance)
+// What it means that cell a ends at `last` along an axis and cell b begins at `first`, which is less by
+// `tolerance` at most.
+CellMeeting Touch(const IntersectionCell& a, const IntersectionCell& b, const Vec3& axis,
+  double last, double first, double tolerance)
 {
-  const double last = Along(a.Hull, axis).Max;
-  const double first = Along(b.Hull, axis).Min;
   const double rounding = 1e-13 * (std::abs(last) + std::abs(first));
   if (last - first < -rounding)
   {
@@ -276,11 +268,6 @@ IntersectionCell::IntersectionCell(BezierPatch patch)
       this->Size[dir] = std::max(this->Size[dir], length);
     }
   }
-  const Vec3 middle = this->Box.center();
-  const double radius = 0.5 * this->Box.diagonal().norm();
-  this->Normals =
-    NormalCone(ConeOfDifferences(this->Patch.Points, 1, m, n, m, middle, radius),
-      ConeOfDifferences(this->Patch.Points, m, n, m, 1, middle, radius));
   const Vec3 corners[4] = { at(0, 0), at(m - 1, 0), at(m - 1, n - 1), at(0, n - 1) };
   const Vec3 inner[4] = { at(m / 2, 0), at(m - 1, n / 2), at(m / 2, n - 1), at(0, n / 2) };
   const Vec3 normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
@@ -295,6 +282,25 @@ IntersectionCell::IntersectionCell(BezierPatch patch)
     }
     this->Axes[k + 1] = axis.stableNormalized();
   }
+  for (std::size_t k = 0; k < this->Axes.size(); ++k)
+  {
+    this->Extents[k] = Along(this->Hull, this->Axes[k]);
+  }
+}
+
+const DirectionCone& IntersectionCell::GetNormals()
+{
+  if (!this->Normals)
+  {
+    const int m = this->Patch.Degree[0] + 1;
+    const int n = this->Patch.Degree[1] + 1;
+    const Vec3 middle = this->Box.center();
+    const double radius = 0.5 * this->Box.diagonal().norm();
+    this->Normals =
+      NormalCone(ConeOfDifferences(this->Patch.Points, 1, m, n, m, middle, radius),
+        ConeOfDifferences(this->Patch.Points, m, n, m, 1, middle, radius));
+  }
+  return *this->Normals;
 }
 
 std::array<IntersectionCell, 2>& IntersectionCell::Split()
@@ -339,28 +345,30 @@ CellMeeting Meet(const IntersectionCell& a, const IntersectionCell& b, double to
     return CellMeeting::Apart;
   }
   CellMeeting out = CellMeeting::Unknown;
-  // True if the axis tells that they are apart.
-  const auto look = [&](const Vec3& axis) {
-    if (Overlap(a.Hull, b.Hull, axis) > tolerance)
-    {
-      return false;
-    }
-    const Interval ia = Along(a.Hull, axis);
-    const Interval ib = Along(b.Hull, axis);
+  // True if the extents along an axis tell that they are apart.
+  const auto look = [&](const Vec3& axis, const Interval& ia, const Interval& ib) {
     const bool isBefore = ia.Max - ib.Min <= ib.Max - ia.Min;
-    out = Touch(a, b, isBefore ? axis : Vec3(-axis), tolerance);
+    if (isBefore && ia.Max - ib.Min <= tolerance)
+    {
+      out = Touch(a, b, axis, ia.Max, ib.Min, tolerance);
+    }
+    else if (!isBefore && ib.Max - ia.Min <= tolerance)
+    {
+      out = Touch(a, b, -axis, -ia.Min, -ib.Max, tolerance);
+    }
     return out == CellMeeting::Apart;
   };
-  for (std::size_t k = 0; k < a.Axes.size(); ++k)
+  for (int k = 0; k < 3; ++k)
   {
-    if ((!a.Axes[k].isZero() && look(a.Axes[k])) || (!b.Axes[k].isZero() && look(b.Axes[k])))
+    if (look(Vec3::Unit(k), { a.Box.min()[k], a.Box.max()[k] }, { b.Box.min()[k], b.Box.max()[k] }))
     {
       return out;
     }
   }
-  for (int k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < a.Axes.size(); ++k)
   {
-    if (look(Vec3::Unit(k)))
+    if ((!a.Axes[k].isZero() && look(a.Axes[k], a.Extents[k], Along(b.Hull, a.Axes[k]))) ||
+      (!b.Axes[k].isZero() && look(b.Axes[k], Along(a.Hull, b.Axes[k]), b.Extents[k])))
     {
       return out;
     }
@@ -370,7 +378,7 @@ CellMeeting Meet(const IntersectionCell& a, const IntersectionCell& b, double to
     const Vec3 axis = FindPlane(a.Hull, b.Hull, b.Box.center() - a.Box.center(), tolerance);
     if (!axis.isZero())
     {
-      out = Touch(a, b, axis, tolerance);
+      out = Touch(a, b, axis, Along(a.Hull, axis).Max, Along(b.Hull, axis).Min, tolerance);
     }
   }
   return out;
@@ -382,29 +390,35 @@ bool AreApart(const IntersectionArc& arc, const IntersectionCell& cell)
   Box3 box = cell.Box;
   box.min().array() -= rounding;
   box.max().array() += rounding;
-  return !arc.Box.intersects(box) ||
-    (!cell.Axes[0].isZero() && Overlap(arc.Hull, cell.Hull, cell.Axes[0]) < -rounding);
+  if (!arc.Box.intersects(box))
+  {
+    return true;
+  }
+  const Interval extent = Along(arc.Hull, cell.Axes[0]);
+  return extent.Min > cell.Extents[0].Max + rounding || extent.Max < cell.Extents[0].Min - rounding;
 }
 
-bool AreTransversal(const IntersectionCell& a, const IntersectionCell& b)
+bool AreTransversal(IntersectionCell& a, IntersectionCell& b)
 {
-  if (!a.Normals.IsKnown() || !b.Normals.IsKnown())
+  const DirectionCone& na = a.GetNormals();
+  const DirectionCone& nb = b.GetNormals();
+  if (!na.IsKnown() || !nb.IsKnown())
   {
     return false;
   }
-  const double angle =
-    std::atan2(a.Normals.Axis.cross(b.Normals.Axis).norm(), a.Normals.Axis.dot(b.Normals.Axis));
-  return a.Normals.Angle + b.Normals.Angle < std::min(angle, Pi - angle);
+  const double angle = std::atan2(na.Axis.cross(nb.Axis).norm(), na.Axis.dot(nb.Axis));
+  return na.Angle + nb.Angle < std::min(angle, Pi - angle);
 }
 
-bool IsTransversal(const IntersectionArc& arc, const IntersectionCell& cell)
+bool IsTransversal(const IntersectionArc& arc, IntersectionCell& cell)
 {
-  if (!arc.Tangents.IsKnown() || !cell.Normals.IsKnown())
+  const DirectionCone& normals = cell.GetNormals();
+  if (!arc.Tangents.IsKnown() || !normals.IsKnown())
   {
     return false;
   }
-  const double slope = std::asin(std::min(1.0, std::abs(arc.Tangents.Axis.dot(cell.Normals.Axis))));
-  const double sum = arc.Tangents.Angle + cell.Normals.Angle;
+  const double slope = std::asin(std::min(1.0, std::abs(arc.Tangents.Axis.dot(normals.Axis))));
+  const double sum = arc.Tangents.Angle + normals.Angle;
   return sum < ConesOfSlope * slope && sum < WidestArcCones;
 }
 

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace nurbs
 {
@@ -47,10 +48,10 @@ struct IntersectionCell
   std::vector<Vec3> Hull;
   Box3 Box;
   double Size[2] = { 0.0, 0.0 }; ///< Length of the longest row of control points in u and v.
-  DirectionCone Normals;
   /// Unit vectors along which the cell is likely to be separated from a neighbour: first the normal,
   /// then those of planes through its sides.
   std::array<Vec3, 5> Axes;
+  std::array<Interval, 5> Extents; ///< Of the hull along them.
   /// What is left by trimming: -1: not looked at, else 1 if there may be something.
   int Cover = -1;
   /// Sides (direction, end) beyond which the face does not go on.
@@ -60,10 +61,15 @@ struct IntersectionCell
   IntersectionCell() = default;
   explicit IntersectionCell(BezierPatch patch);
   double LargestSize() const { return std::max(this->Size[0], this->Size[1]); }
+  /// What holds the normals; made at the first call.
+  const DirectionCone& GetNormals();
   /// Halves along the longer direction, made at the first call.
   std::array<IntersectionCell, 2>& Split();
   /// The side in direction dir (0: where u, 1: where v is constant), at end 0 or 1.
   IntersectionArc Side(int dir, int end) const;
+
+private:
+  std::optional<DirectionCone> Normals;
 };
 
 /// How two cells lie to each other.
@@ -79,9 +85,9 @@ CellMeeting Meet(const IntersectionCell& a, const IntersectionCell& b, double to
 bool AreApart(const IntersectionArc& arc, const IntersectionCell& cell);
 
 /// True if no normal of one is parallel to one of the other.
-bool AreTransversal(const IntersectionCell& a, const IntersectionCell& b);
+bool AreTransversal(IntersectionCell& a, IntersectionCell& b);
 
 /// True if the arc crosses the cell once at most, at angles that Newton's method is safe with.
-bool IsTransversal(const IntersectionArc& arc, const IntersectionCell& cell);
+bool IsTransversal(const IntersectionArc& arc, IntersectionCell& cell);
 
 } // namespace nurbs

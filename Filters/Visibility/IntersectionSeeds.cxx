@@ -16,7 +16,7 @@ constexpr int CoincidenceDepth = 3;
 constexpr double SampleShares[3] = { 0.07, 0.46, 0.91 };
 constexpr int LeastSamples = 4;
 constexpr int ArcSamples = 5;
-constexpr int MaxDepth = 60;
+constexpr int MaxArcDepth = 60;
 constexpr int MaxTouchingDepth = 14;
 // Roots beyond the ends of parts by that share are their neighbours', too.
 constexpr double EndShare = 1e-6;
@@ -101,7 +101,9 @@ void SeedSearch::Search(IntersectionCell& a, IntersectionCell& b, int depth)
   }
   const double sizes[2] = { a.LargestSize(), b.LargestSize() };
   // Parts that touch and are parallel after so many halvings are tangent to each other.
-  const int deepest = meeting == CellMeeting::Touching ? MaxTouchingDepth : MaxDepth;
+  const int deepest = meeting == CellMeeting::Touching
+    ? std::min(MaxTouchingDepth, this->Limits.Depth)
+    : this->Limits.Depth;
   if (std::max(sizes[0], sizes[1]) <= this->Limits.Smallest || depth >= deepest)
   {
     return;
@@ -191,7 +193,7 @@ void SeedSearch::SearchArc(
     return;
   }
   const double size = cell.LargestSize();
-  const bool isSmall = std::max(arc.Size, size) <= this->Limits.Smallest || depth >= MaxDepth;
+  const bool isSmall = std::max(arc.Size, size) <= this->Limits.Smallest || depth >= MaxArcDepth;
   if ((IsTransversal(arc, cell) && this->AddSeed(source, arc, cell)) || isSmall)
   {
     return;

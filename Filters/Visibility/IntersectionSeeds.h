@@ -20,6 +20,9 @@ struct SeedLimits
   double Tolerance = 0.0;   ///< Surfaces that pass each other by less only touch.
   double Smallest = 0.0;    ///< Size of parts that are not halved any more.
   std::int64_t Tests = 0;   ///< Of pairs of parts, at most.
+  /// Halvings after which parts count as tangent: of faces that share an edge, which most of what is
+  /// not told apart lies along.
+  int Depth = 60;
 };
 
 /// The search for one pair of faces.
