@@ -18,8 +18,6 @@ namespace nurbs
 namespace
 {
 
-// Faces that pass each other by less, as a share of the precision, only touch.
-constexpr double TouchShare = 0.25;
 // What chords may differ from the curve by, as a share of it.
 constexpr double ChordShare = 0.9;
 // Smallest parts of patches, in precisions.
@@ -69,6 +67,7 @@ private:
 
   void MakeFace(std::int64_t face);
   void FindShared();
+  void FindCoinciding(const std::vector<std::vector<EdgeUse>>& uses);
   void FindPairs();
   double ToleranceOf(const FacePair& pair, bool& shares) const;
   void Intersect(
@@ -81,9 +80,10 @@ private:
   const std::vector<std::string>& FaceErrors;
   const FaceIntersectionOptions& Options;
   std::vector<FaceParts> Faces;
-  std::map<FacePair, double> Shared; ///< Pairs of faces that share an edge: its tolerance.
-  std::vector<CellPair> Pairs;       ///< By pair of faces.
-  double Size = 0.0;                 ///< Of coordinates.
+  /// Pairs of faces that share an edge, or have one at the same place: its tolerance.
+  std::map<FacePair, double> Shared;
+  std::vector<CellPair> Pairs; ///< By pair of faces.
+  double Size = 0.0;           ///< Of coordinates.
   std::atomic<bool> Aborted{ false };
 };
 
@@ -138,6 +138,52 @@ void PairFinder::FindShared()
       }
     }
   }
+  this->FindCoinciding(uses);
+}
+
+// Adds pairs of faces with edges of their own that have the same ends and middle, within the
+// precision.
+void PairFinder::FindCoinciding(const std::vector<std::vector<EdgeUse>>& uses)
+{
+  std::vector<std::array<Vec3, 3>> places;
+  std::vector<std::int64_t> owners;
+  std::vector<Box3> boxes;
+  for (std::size_t e = 0; e < uses.size(); ++e)
+  {
+    if (uses[e].size() != 1 || IsDegenerate(this->Source.Edges[e]))
+    {
+      continue;
+    }
+    const CurveView<2>& curve = this->Source.TrimCurves[uses[e].front().Curve].Geometry;
+    const SurfaceView& surface = this->Source.Faces[uses[e].front().Face].Geometry;
+    const Interval domain = curve.Domain();
+    std::array<Vec3, 3> place;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec2 uv = Evaluate(curve, domain.Min + 0.5 * k * domain.Length());
+      place[k] = Evaluate(surface, surface.Domain(0).Clamp(uv[0]), surface.Domain(1).Clamp(uv[1]));
+    }
+    places.push_back(place);
+    owners.push_back(uses[e].front().Face);
+    boxes.emplace_back(place[1], place[1]);
+  }
+  const double reach = 4.0 * this->Options.Precision;
+  BoxTree tree;
+  tree.Build(boxes, reach);
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    const std::array<Vec3, 3>& a = places[k];
+    tree.Search([&](const Box3& box) { return box.contains(a[1]); },
+      [&](std::int32_t other, const Box3&) {
+        const std::array<Vec3, 3>& b = places[other];
+        const double apart = std::min(std::max((a[0] - b[0]).norm(), (a[2] - b[2]).norm()),
+          std::max((a[0] - b[2]).norm(), (a[2] - b[0]).norm()));
+        if (owners[other] < owners[k] && apart <= reach && (a[1] - b[1]).norm() <= reach)
+        {
+          this->Shared.try_emplace({ owners[other], owners[k] }, 0.0);
+        }
+      });
+  }
 }
 
 // By how much two faces may pass each other.
@@ -145,8 +191,7 @@ double PairFinder::ToleranceOf(const FacePair& pair, bool& shares) const
 {
   const auto found = this->Shared.find(pair);
   shares = found != this->Shared.end();
-  const double least = TouchShare * this->Options.Precision;
-  return shares ? std::max(least, 2.0 * found->second) : least;
+  return std::max(this->Options.Precision, shares ? 2.0 * found->second : 0.0);
 }
 
 // Pairs of patches that are not told apart at once.
@@ -161,8 +206,8 @@ void PairFinder::FindPairs()
       const Box3& box = this->Faces[f].Cells[c].Box;
       boxes.push_back(box);
       owners.emplace_back(std::int64_t(f), c);
-      this->Size = std::max(
-        { this->Size, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff() });
+      this->Size =
+        std::max({ this->Size, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff() });
     }
   }
   BoxTree tree;
@@ -246,9 +291,11 @@ void PairFinder::Intersect(
     return;
   }
   IntersectionTracer tracer(pair);
-  IntersectionCutter cutter(pair, tracer, this->Trims.Face(head.Face[0]),
-    this->CurvesOf(head.Face[0]), this->Trims.Face(head.Face[1]), this->CurvesOf(head.Face[1]),
-    tolerance);
+  const auto borders = [&](std::int64_t face) {
+    return FaceBorders{ &this->Trims.Face(face), this->Faces[face].Cover.get(),
+      &this->CurvesOf(face) };
+  };
+  IntersectionCutter cutter(pair, tracer, borders(head.Face[0]), borders(head.Face[1]), tolerance);
   std::vector<TracedIntersection> curves;
   for (const IntersectionPoint& seed : search.Seeds)
   {
@@ -262,12 +309,8 @@ void PairFinder::Intersect(
     {
       continue;
     }
-    // Along a common edge, most likely all the way.
-    const bool isOfEdge =
-      shares && std::none_of(curve.Points.begin(), curve.Points.end(), [&](const auto& point) {
-        return cutter.Pierces(point);
-      });
-    if (!isOfEdge)
+    // Along edges, most likely all the way.
+    if (!cutter.RunsAlongBorders(curve, shares ? 1 : 3))
     {
       TracedIntersection refined = curve;
       tracer.Refine(refined, ChordShare * precision);
@@ -299,7 +342,8 @@ FaceIntersections PairFinder::Run()
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < this->Pairs.size(); ++k)
   {
-    if (k == 0 || !std::equal(this->Pairs[k].Face, this->Pairs[k].Face + 2, this->Pairs[k - 1].Face))
+    if (k == 0 ||
+      !std::equal(this->Pairs[k].Face, this->Pairs[k].Face + 2, this->Pairs[k - 1].Face))
     {
       starts.push_back(k);
     }

@@ -58,8 +58,9 @@ DirectionCone ConeOf(const std::vector<Vec3>& vectors, double ball)
   return out;
 }
 
-// The differences of homogeneous points along one direction, as vectors in space around `middle`: S_u w
-// is H_u - S w_u, so what the weights add is within the largest |S - middle| times their difference.
+// The differences of homogeneous points along one direction, as vectors in space around `middle`:
+// S_u w is H_u - S w_u, so what the weights add is within the largest |S - middle| times their
+// difference.
 DirectionCone ConeOfDifferences(const std::vector<Vec4>& points, int step, int count, int rows,
   int rowStep, const Vec3& middle, double radius)
 {
@@ -137,8 +138,8 @@ Interval Along(const std::vector<Vec3>& hull, const Vec3& axis)
   return out;
 }
 
-// Which sides of a cell, as bits 2 dir + end, have all control points that are not below `least` along
-// the axis.
+// Which sides of a cell, as bits 2 dir + end, have all control points that are not below `least`
+// along the axis.
 int SidesAbove(const IntersectionCell& cell, const Vec3& axis, double least)
 {
   const int m = cell.Patch.Degree[0] + 1;
@@ -156,8 +157,8 @@ int SidesAbove(const IntersectionCell& cell, const Vec3& axis, double least)
   return sides;
 }
 
-// What it means that cell a ends at `last` along an axis and cell b begins at `first`, which is less by
-// `tolerance` at most.
+// What it means that cell a ends at `last` along an axis and cell b begins at `first`, which is
+// less by `tolerance` at most.
 CellMeeting Touch(const IntersectionCell& a, const IntersectionCell& b, const Vec3& axis,
   double last, double first, double tolerance)
 {
@@ -189,10 +190,9 @@ CellMeeting Touch(const IntersectionCell& a, const IntersectionCell& b, const Ve
 }
 
 // Looks for a plane between two hulls by mirroring its normal at the vector between the points that
-// overlap most (Chung, Wang, "Quick collision detection of polytopes in virtual environments", 1996).
-// Zero: there may be none.
-Vec3 FindPlane(
-  const std::vector<Vec3>& a, const std::vector<Vec3>& b, Vec3 axis, double tolerance)
+// overlap most (Chung, Wang, "Quick collision detection of polytopes in virtual environments",
+// 1996). Zero: there may be none.
+Vec3 FindPlane(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Vec3 axis, double tolerance)
 {
   for (int k = 0; k < MaxPlaneSteps; ++k)
   {
@@ -296,9 +296,8 @@ const DirectionCone& IntersectionCell::GetNormals()
     const int n = this->Patch.Degree[1] + 1;
     const Vec3 middle = this->Box.center();
     const double radius = 0.5 * this->Box.diagonal().norm();
-    this->Normals =
-      NormalCone(ConeOfDifferences(this->Patch.Points, 1, m, n, m, middle, radius),
-        ConeOfDifferences(this->Patch.Points, m, n, m, 1, middle, radius));
+    this->Normals = NormalCone(ConeOfDifferences(this->Patch.Points, 1, m, n, m, middle, radius),
+      ConeOfDifferences(this->Patch.Points, m, n, m, 1, middle, radius));
   }
   return *this->Normals;
 }

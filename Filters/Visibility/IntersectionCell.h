@@ -4,8 +4,8 @@
 ///
 /// Hulls of control points separated by a plane do not meet. Two patches none of whose normals are
 /// parallel meet in no closed curve (Sinha, Klassen, Wang, "Exploiting topological and geometric
-/// properties for selective subdivision", 1985), which cones of normals tell (Sederberg, Meyers, "Loop
-/// detection in surface patch intersections", 1988).
+/// properties for selective subdivision", 1985), which cones of normals tell (Sederberg, Meyers,
+/// "Loop detection in surface patch intersections", 1988).
 #pragma once
 
 #include "Surface.h"
@@ -48,8 +48,8 @@ struct IntersectionCell
   std::vector<Vec3> Hull;
   Box3 Box;
   double Size[2] = { 0.0, 0.0 }; ///< Length of the longest row of control points in u and v.
-  /// Unit vectors along which the cell is likely to be separated from a neighbour: first the normal,
-  /// then those of planes through its sides.
+  /// Unit vectors along which the cell is likely to be separated from a neighbour: first the
+  /// normal, then those of planes through its sides.
   std::array<Vec3, 5> Axes;
   std::array<Interval, 5> Extents; ///< Of the hull along them.
   /// What is left by trimming: -1: not looked at, else 1 if there may be something.
@@ -75,8 +75,10 @@ private:
 /// How two cells lie to each other.
 enum class CellMeeting
 {
-  Apart,    ///< A plane separates them, but for `tolerance`, and if they touch, one of them ends there.
-  Touching, ///< The same, but where they touch, one has a side that it goes on beyond in another cell.
+  /// A plane separates them, but for `tolerance`, and if they touch, one of them ends there.
+  Apart,
+  /// The same, but where they touch, one has a side that it goes on beyond in another cell.
+  Touching,
   Unknown
 };
 CellMeeting Meet(const IntersectionCell& a, const IntersectionCell& b, double tolerance);

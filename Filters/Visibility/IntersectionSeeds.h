@@ -2,10 +2,10 @@
 /// @file IntersectionSeeds.h
 /// @brief At least one point of every intersection curve of two faces.
 ///
-/// Patches are halved until two parts are apart, or no normals of them are parallel. Then they have no
-/// closed curve in common, so all curves cross the sides of the parts, and the points where sides cross
-/// the other part are the seeds, found by the same subdivision (Krishnan, Manocha, "An efficient surface
-/// intersection algorithm based on lower-dimensional formulation", 1997).
+/// Patches are halved until two parts are apart, or no normals of them are parallel. Then they have
+/// no closed curve in common, so all curves cross the sides of the parts, and the points where
+/// sides cross the other part are the seeds, found by the same subdivision (Krishnan, Manocha, "An
+/// efficient surface intersection algorithm based on lower-dimensional formulation", 1997).
 #pragma once
 
 #include "IntersectionCell.h"
@@ -17,11 +17,11 @@ namespace nurbs
 
 struct SeedLimits
 {
-  double Tolerance = 0.0;   ///< Surfaces that pass each other by less only touch.
-  double Smallest = 0.0;    ///< Size of parts that are not halved any more.
-  std::int64_t Tests = 0;   ///< Of pairs of parts, at most.
-  /// Halvings after which parts count as tangent: of faces that share an edge, which most of what is
-  /// not told apart lies along.
+  double Tolerance = 0.0; ///< Surfaces that pass each other by less only touch.
+  double Smallest = 0.0;  ///< Size of parts that are not halved any more.
+  std::int64_t Tests = 0; ///< Of pairs of parts, at most.
+  /// Halvings after which parts count as tangent: of faces that share an edge, which most of what
+  /// is not told apart lies along.
   int Depth = 60;
 };
 
@@ -29,8 +29,8 @@ struct SeedLimits
 class SeedSearch
 {
 public:
-  SeedSearch(SurfacePair& pair, const CoverTest& coverA, const CoverTest& coverB,
-    const SeedLimits& limits);
+  SeedSearch(
+    SurfacePair& pair, const CoverTest& coverA, const CoverTest& coverB, const SeedLimits& limits);
 
   /// Adds seeds of two patches.
   void Search(IntersectionCell& a, IntersectionCell& b) { this->Search(a, b, 0); }

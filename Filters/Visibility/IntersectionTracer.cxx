@@ -17,7 +17,8 @@ constexpr int MaxSteps = 20000;
 constexpr double LongestShare = 1.0 / 12.0;
 constexpr double FirstShare = 0.25; // Of the longest.
 constexpr double ShortestShare = 1e-7;
-// Cosine of the angle that tangents may turn by in a step; and the one up to which the next is longer.
+// Cosine of the angle that tangents may turn by in a step; and the one up to which the next is
+// longer.
 constexpr double LargestTurn = 0.98;
 constexpr double SmallTurn = 0.995;
 // Farther from the predicted point than this, as a share of the step, it may be another curve.
@@ -40,8 +41,8 @@ double SizeOf(SurfacePair& pair, int side)
   return box.diagonal().norm();
 }
 
-// Where q lies on the way from a to b, as a share; negative: not near to it. As near as a chord's bulge
-// may be.
+// Where q lies on the way from a to b, as a share; negative: not near to it. As near as a chord's
+// bulge may be.
 double ShareOnChord(
   const IntersectionPoint& a, const IntersectionPoint& b, const IntersectionPoint& q)
 {
@@ -81,8 +82,7 @@ bool IntersectionTracer::Step(const IntersectionPoint& from, const CrossingFrame
   {
     to.UV[side] = from.UV[side] + sign * length * frame.AlongUV[side];
   }
-  if (!this->Pair.MoveToPlane(place, way, to) ||
-    (to.Point - place).norm() > LargestAside * length)
+  if (!this->Pair.MoveToPlane(place, way, to) || (to.Point - place).norm() > LargestAside * length)
   {
     return false;
   }
@@ -128,7 +128,8 @@ bool IntersectionTracer::Leave(const IntersectionPoint& from, const CrossingFram
       const Vec3 move = point.Point - from.Point;
       const double along = sign * frame.Tangent.dot(move);
       const double rounding = 1e-9 * this->LongestStep;
-      if (along >= -rounding && along < nearest && move.norm() <= 1.5 * std::abs(along) + rounding &&
+      if (along >= -rounding && along < nearest &&
+        move.norm() <= 1.5 * std::abs(along) + rounding &&
         this->Pair.IsInBox(0, point.UV[0], BeyondShare) &&
         this->Pair.IsInBox(1, point.UV[1], BeyondShare))
       {
@@ -193,8 +194,8 @@ bool IntersectionTracer::Follow(
     }
     out.push_back(to);
     travelled += length;
-    length = std::min(this->LongestStep,
-      frame.Tangent.dot(toFrame.Tangent) >= SmallTurn ? 1.5 * length : length);
+    length = std::min(
+      this->LongestStep, frame.Tangent.dot(toFrame.Tangent) >= SmallTurn ? 1.5 * length : length);
     from = to;
     frame = toFrame;
   }

@@ -25,16 +25,15 @@ public:
 
   explicit IntersectionTracer(SurfacePair& pair);
 
-  /// The whole curve through `seed`, by steps that turn by a fifth of a radian at most. Empty if it is
-  /// too flat there.
+  /// The whole curve through `seed`, by steps that turn by a fifth of a radian at most. Empty if it
+  /// is too flat there.
   TracedIntersection Trace(const IntersectionPoint& seed);
 
   /// Adds points till chords are within `precision` of the curve.
   void Refine(TracedIntersection& curve, double precision);
 
   /// The point of the curve at a share of a chord.
-  IntersectionPoint Between(
-    const IntersectionPoint& a, const IntersectionPoint& b, double share);
+  IntersectionPoint Between(const IntersectionPoint& a, const IntersectionPoint& b, double share);
 
   /// True if a point of the two surfaces is one of a traced curve, refined or not.
   bool Passes(const TracedIntersection& curve, const IntersectionPoint& point);
@@ -43,8 +42,7 @@ private:
   /// Follows one direction; appends points. Returns true if the curve closes.
   bool Follow(
     const IntersectionPoint& seed, double sign, std::vector<IntersectionPoint>& out, bool& beyond);
-  bool IsOnWay(
-    const IntersectionPoint& a, const IntersectionPoint& b, const IntersectionPoint& q);
+  bool IsOnWay(const IntersectionPoint& a, const IntersectionPoint& b, const IntersectionPoint& q);
   bool Step(const IntersectionPoint& from, const CrossingFrame& frame, double sign, double length,
     IntersectionPoint& to, CrossingFrame& toFrame);
   bool Leave(const IntersectionPoint& from, const CrossingFrame& frame, double sign, double length,

@@ -20,6 +20,8 @@ constexpr double EndShare = 1e-6;
 constexpr double SameParameter = 1e-9;
 // Sines of angles between surfaces smaller than this count as this.
 constexpr double LeastSine = 0.01;
+// How far the curve may be from a chord that turns by a fifth of a radian, of the chord.
+constexpr double ChordBulge = 0.1;
 
 Box3 Flat(const Box2& box)
 {
@@ -74,8 +76,7 @@ TrimCurveTree::TrimCurveTree(const Model& model, const Face& face)
   this->Tree.Build(boxes, BoxMargin * this->Size.maxCoeff());
 }
 
-std::vector<double> TrimCurveTree::Crossings(
-  const Piece& piece, const Vec2& a, const Vec2& b) const
+std::vector<double> TrimCurveTree::Crossings(const Piece& piece, const Vec2& a, const Vec2& b) const
 {
   const Vec2 scale = this->Size.cwiseInverse();
   const Vec2 along = (b - a).cwiseProduct(scale);
@@ -88,8 +89,7 @@ std::vector<double> TrimCurveTree::Crossings(
   std::vector<double> out = SignChanges(distance);
   out.erase(std::remove_if(out.begin(), out.end(),
               [&](double t) {
-                const double share =
-                  along.dot((piece.Bezier.Evaluate(t) - a).cwiseProduct(scale)) /
+                const double share = along.dot((piece.Bezier.Evaluate(t) - a).cwiseProduct(scale)) /
                   along.squaredNorm();
                 return share < -EndShare || share > 1.0 + EndShare;
               }),
@@ -118,30 +118,79 @@ void TrimCurveTree::Search(const Vec2& a, const Vec2& b, const Visit& visit) con
 }
 
 IntersectionCutter::IntersectionCutter(SurfacePair& pair, IntersectionTracer& tracer,
-  const FaceTrim& trimA, const TrimCurveTree& curvesA, const FaceTrim& trimB,
-  const TrimCurveTree& curvesB, double tolerance)
+  const FaceBorders& a, const FaceBorders& b, double tolerance)
   : Pair(pair)
   , Tracer(tracer)
-  , Trims{ &trimA, &trimB }
-  , Curves{ &curvesA, &curvesB }
+  , Borders{ a, b }
   , Tolerance(tolerance)
 {}
 
-bool IntersectionCutter::Pierces(const IntersectionPoint& point)
+IntersectionCutter::Place IntersectionCutter::Locate(const IntersectionPoint& point)
 {
   const CrossingFrame frame = this->Pair.Frame(point);
   if (frame.Sine < LeastSine)
   {
-    return false;
+    return Place::Outside;
   }
   const double aside = this->Tolerance / frame.Sine;
+  bool isOnBorder = false;
   for (int side = 0; side < 2; ++side)
   {
+    int inside = 0;
     for (const double step : { 0.0, -aside, aside })
     {
       const Vec2 uv = point.UV[side] + step * frame.AcrossUV[side];
       // Points beyond the domain count as those on its border, which would be inside.
-      if (!this->Pair.IsInBox(side, uv, 1e-9) || !this->Trims[side]->Inside(uv[0], uv[1]))
+      inside +=
+        this->Pair.IsInBox(side, uv, 1e-9) && this->Borders[side].Trim->Inside(uv[0], uv[1]);
+    }
+    if (inside == 0)
+    {
+      return Place::Outside;
+    }
+    isOnBorder = isOnBorder || inside < 3;
+  }
+  return isOnBorder ? Place::Border : Place::Inside;
+}
+
+// True if the boxes of a chord, larger by what it may bulge, are outside of one of the faces.
+bool IntersectionCutter::IsTrimmedAway(const IntersectionPoint& a, const IntersectionPoint& b) const
+{
+  for (int side = 0; side < 2; ++side)
+  {
+    Box2 box(a.UV[side]);
+    box.extend(b.UV[side]);
+    const double margin = ChordBulge * box.sizes().maxCoeff();
+    const CoverTest& cover = *this->Borders[side].Cover;
+    const auto normalise = [&](const Vec2& uv) {
+      return Vec2(cover.Normalise(0, uv[0]), cover.Normalise(1, uv[1]));
+    };
+    const Box2 wide(
+      normalise(box.min() - Vec2(margin, margin)), normalise(box.max() + Vec2(margin, margin)));
+    if (cover.Cover(wide) == TrimCover::None)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool IntersectionCutter::RunsAlongBorders(const TracedIntersection& curve, int samples)
+{
+  const std::size_t last = curve.Points.size() - 1;
+  for (std::size_t k = 0; k < last; ++k)
+  {
+    const IntersectionPoint& a = curve.Points[k];
+    const IntersectionPoint& b = curve.Points[k + 1];
+    const bool isBeyond = (k == 0 && curve.Beyond[0]) || (k + 1 == last && curve.Beyond[1]);
+    if (isBeyond || this->IsTrimmedAway(a, b))
+    {
+      continue;
+    }
+    for (int s = 0; s < samples; ++s)
+    {
+      const double share = (s + 0.5) / samples;
+      if (this->Locate(this->Tracer.Between(a, b, share)) != Place::Border)
       {
         return false;
       }
@@ -165,7 +214,8 @@ bool IntersectionCutter::PiercesAlong(const std::vector<IntersectionPoint>& poin
       longest = k;
     }
   }
-  return this->Pierces(this->Tracer.Between(points[longest], points[longest + 1], 0.5));
+  return this->Locate(this->Tracer.Between(points[longest], points[longest + 1], 0.5)) ==
+    Place::Inside;
 }
 
 // Where a chord of the curve crosses trim curves of one face, moved to where the curve does.
@@ -173,7 +223,7 @@ void IntersectionCutter::FindCrossings(int side, const IntersectionPoint& a,
   const IntersectionPoint& b, std::size_t segment, std::vector<Crossing>& out)
 {
   const Vec3 way = b.Point - a.Point;
-  this->Curves[side]->Search(
+  this->Borders[side].Curves->Search(
     a.UV[side], b.UV[side], [&](const TrimCurveTree::Piece& piece, double t) {
       const int degree = piece.Bezier.Degree();
       const auto curve = [&](double s, Vec2& uv, Vec2& along) {
@@ -203,8 +253,8 @@ void IntersectionCutter::FindCrossings(int side, const IntersectionPoint& a,
       }
       crossing.Segment = segment;
       crossing.Trim.Curve = piece.Curve;
-      crossing.Trim.Parameter = piece.Bezier.T0 +
-        std::clamp(t, 0.0, 1.0) * (piece.Bezier.T1 - piece.Bezier.T0);
+      crossing.Trim.Parameter =
+        piece.Bezier.T0 + std::clamp(t, 0.0, 1.0) * (piece.Bezier.T1 - piece.Bezier.T0);
       out.push_back(crossing);
     });
 }

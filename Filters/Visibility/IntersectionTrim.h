@@ -5,6 +5,7 @@
 
 #include "FaceIntersections.h"
 #include "IntersectionTracer.h"
+#include "PatchCutter.h"
 
 namespace nurbs
 {
@@ -34,22 +35,37 @@ private:
   BoxTree Tree;
 };
 
+/// What tells the inside of a face.
+struct FaceBorders
+{
+  const FaceTrim* Trim;
+  const CoverTest* Cover;
+  const TrimCurveTree* Curves;
+};
+
 /// Cuts the curves of one pair of faces.
 class IntersectionCutter
 {
 public:
-  /// `tolerance`: see Pierces.
-  IntersectionCutter(SurfacePair& pair, IntersectionTracer& tracer, const FaceTrim& trimA,
-    const TrimCurveTree& curvesA, const FaceTrim& trimB, const TrimCurveTree& curvesB,
-    double tolerance);
+  /// `tolerance`: the faces pierce each other where both go on, beside a point of the curve, until
+  /// they are that far apart.
+  IntersectionCutter(SurfacePair& pair, IntersectionTracer& tracer, const FaceBorders& a,
+    const FaceBorders& b, double tolerance);
 
   /// Appends the parts of a curve where the faces pierce each other.
   void Cut(const TracedIntersection& curve, std::vector<FaceIntersection>& out);
 
-  /// True if both faces go on, beside a point of the curve, until they are `tolerance` apart.
-  bool Pierces(const IntersectionPoint& point);
+  /// True if nothing of a curve that is not refined can be inside both faces: each chord is trimmed
+  /// away, or runs along the border of one of them in `samples` places.
+  bool RunsAlongBorders(const TracedIntersection& curve, int samples);
 
 private:
+  enum class Place
+  {
+    Outside,
+    Border, ///< Of one of the faces.
+    Inside  ///< Both.
+  };
   struct Crossing
   {
     std::size_t Segment;
@@ -64,6 +80,8 @@ private:
     bool Pierces = false;
   };
 
+  Place Locate(const IntersectionPoint& point);
+  bool IsTrimmedAway(const IntersectionPoint& a, const IntersectionPoint& b) const;
   std::vector<Crossing> FindCrossings(const TracedIntersection& curve);
   void FindCrossings(int side, const IntersectionPoint& a, const IntersectionPoint& b,
     std::size_t segment, std::vector<Crossing>& out);
@@ -73,8 +91,7 @@ private:
 
   SurfacePair& Pair;
   IntersectionTracer& Tracer;
-  const FaceTrim* Trims[2];
-  const TrimCurveTree* Curves[2];
+  FaceBorders Borders[2];
   double Tolerance;
 };
 

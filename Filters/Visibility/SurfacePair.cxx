@@ -54,8 +54,8 @@ bool SurfacePair::MoveToPlane(const Vec3& place, const Vec3& normal, Intersectio
     const SurfaceDerivatives a = this->Surfaces[0].Derivatives(point.UV[0][0], point.UV[0][1], 1);
     const SurfaceDerivatives b = this->Surfaces[1].Derivatives(point.UV[1][0], point.UV[1][1], 1);
     point.Point = 0.5 * (a.S + b.S);
-    // Within each tangent plane: the nearest to the plane and the other one, by normals, which keeps
-    // a system of three unknowns.
+    // Within each tangent plane: the nearest to the plane and the other one, by normals, which
+    // keeps a system of three unknowns.
     const Vec3 na = a.Su.cross(a.Sv);
     const Vec3 nb = b.Su.cross(b.Sv);
     Eigen::Matrix3d m;
@@ -135,9 +135,9 @@ std::optional<bool> SurfacePair::LiesOnOther(
     const double move = (d.Su * step[0] + d.Sv * step[1]).norm();
     if (move <= 0.1 * tolerance)
     {
-      return this->IsInBox(other, uvOther, 1e-6) ? std::optional<bool>(
-                                                      (d.S - point).norm() <= tolerance)
-                                                 : std::nullopt;
+      return this->IsInBox(other, uvOther, 1e-6)
+        ? std::optional<bool>((d.S - point).norm() <= tolerance)
+        : std::nullopt;
     }
     uvOther += step;
     if (!this->IsInBox(other, uvOther, 0.5))

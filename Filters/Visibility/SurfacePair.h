@@ -34,8 +34,8 @@ public:
   SurfacePair(const SurfaceEvaluator& a, const Box2& boxA, const SurfaceEvaluator& b,
     const Box2& boxB, double size);
 
-  /// Moves a guess to the common point in the plane through `place` orthogonal to `normal`. Parameters
-  /// may leave the boxes. False: it does not converge.
+  /// Moves a guess to the common point in the plane through `place` orthogonal to `normal`.
+  /// Parameters may leave the boxes. False: it does not converge.
   bool MoveToPlane(const Vec3& place, const Vec3& normal, IntersectionPoint& point);
 
   /// Moves a guess to where curve(t) in the domain of surface `side` meets the other one. `curve`
@@ -45,8 +45,8 @@ public:
 
   CrossingFrame Frame(const IntersectionPoint& point);
 
-  /// True if the point of one surface at uv lies within `tolerance` of the other one, inside its box.
-  /// `uvOther`: a guess. No value: the foot is beyond the box.
+  /// True if the point of one surface at uv lies within `tolerance` of the other one, inside its
+  /// box. `uvOther`: a guess. No value: the foot is beyond the box.
   std::optional<bool> LiesOnOther(int side, const Vec3& point, Vec2 uvOther, double tolerance);
 
   const Box2& Box(int side) const { return this->Boxes[side]; }
@@ -87,8 +87,8 @@ bool SurfacePair::MoveAlongCurve(int side, const Curve& curve, double& t, Inters
       return false;
     }
     point.Point = 0.5 * (a.S + b.S);
-    const double move = m.col(0).norm() * std::abs(step[0]) + (b.Su * step[1]).norm() +
-      (b.Sv * step[2]).norm();
+    const double move =
+      m.col(0).norm() * std::abs(step[0]) + (b.Su * step[1]).norm() + (b.Sv * step[2]).norm();
     if (this->Converged(gap.norm(), move))
     {
       return true;

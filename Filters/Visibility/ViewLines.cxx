@@ -266,8 +266,8 @@ void ProjectLines(const Silhouettes& silhouettes, const FaceIntersections& inter
 }
 
 // Appends intersection curves, and to `ends` where they end on edges.
-void AddIntersections(const FaceIntersections& intersections,
-  std::vector<std::vector<EdgeEnd>>& ends, ViewLines& lines)
+void AddIntersections(
+  const FaceIntersections& intersections, std::vector<std::vector<EdgeEnd>>& ends, ViewLines& lines)
 {
   for (const FaceIntersection& curve : intersections.Curves)
   {
@@ -280,9 +280,8 @@ void AddIntersections(const FaceIntersections& intersections,
       line.Points.push_back({ point.UV[0], point.Point, 0.0 });
       line.OtherUV.push_back(point.UV[1]);
     }
-    line.IsBehind = std::all_of(curve.Face, curve.Face + 2, [&](std::int64_t face) {
-      return lines.IsShell[face] && !MayFaceViewer(lines.Faces[face]);
-    });
+    line.IsBehind = std::all_of(curve.Face, curve.Face + 2,
+      [&](std::int64_t face) { return lines.IsShell[face] && !MayFaceViewer(lines.Faces[face]); });
     for (int end = 0; end < 2; ++end)
     {
       if (curve.Ends[end].Curve >= 0)
