@@ -17,4 +17,5 @@ for number, snippet in enumerate(snippets, 1):
     code = re.sub(r'LoadPlugin\("[^"]+"', 'LoadPlugin("%s"' % PLUGIN, snippet)
     exec(compile(code, "snippet %d" % number, "exec"), names)
 assert os.path.getsize("drawing.png") > 1000
+assert os.path.getsize("drawing.svg") > 1000
 print("passed")
