@@ -169,7 +169,7 @@ struct Scene
     const nurbs::RayCaster caster(model);
     int count = 0;
     missed = 0;
-    const int steps = 12 * lines;
+    const int steps = 4 * lines;
     for (std::size_t f = 0; f < model.Faces.size(); ++f)
     {
       const nurbs::SurfaceView& surface = model.Faces[f].Geometry;
