@@ -422,7 +422,7 @@ void ShownLines::Find(std::int64_t index)
   for (int lineSide = 0; lineSide < 2; ++lineSide)
   {
     // A silhouette has its own surface on its left only.
-    if (lineSide == 1 && !line.IsEdge())
+    if (lineSide == 1 && !line.IsEdge() && !line.IsIntersection())
     {
       continue;
     }
