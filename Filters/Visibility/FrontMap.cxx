@@ -391,6 +391,18 @@ std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
 bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  const double at = 0.5 *
+    (this->Map.At(this->Lines.Lines, source, ends[0]) +
+      this->Map.At(this->Lines.Lines, source, ends[1]));
+  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+  if (line.IsIntersection())
+  {
+    // Both faces are seen on both sides of it, where nothing is in front.
+    const FrontHit there = LookAt(this->Caster, this->Image, this->Image.Project(point));
+    return there.Face < 0 ||
+      this->Image.Depth(point) - this->Image.Depth(there.Point) <= this->Map.Pixel;
+  }
   const Vec2 beside = this->Map.Beside(step.Edge, side);
   const FrontHit& front = this->Map.Front(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
@@ -398,11 +410,6 @@ bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
   {
     return true; // Too near to tell; what the cell says goes.
   }
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  const double at = 0.5 *
-    (this->Map.At(this->Lines.Lines, source, ends[0]) +
-      this->Map.At(this->Lines.Lines, source, ends[1]));
-  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
   const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
   Vec2 uv = hit.UV;
   this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, uv);

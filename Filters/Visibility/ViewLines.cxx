@@ -435,6 +435,19 @@ ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosi
     out.UV = Vec2(surface.Domain(0).Clamp(out.UV[0]), surface.Domain(1).Clamp(out.UV[1]));
   }
   out.Point = Evaluate(surface, out.UV[0], out.UV[1]);
+  const auto k = std::size_t(std::max(at, 0.0));
+  if (line.IsIntersection() && at > double(k) && k + 1 < line.Points.size())
+  {
+    const Face& other = lines.Whole.Data.Faces[line.OtherFace];
+    IntersectionPoint point{ out.Point, { out.UV, ParametersAt(line, at, line.OtherFace) } };
+    const Vec3 chord = line.Points[k + 1].Point - line.Points[k].Point;
+    if (FindCommonPoint(surface, other.Geometry, PointAt(line, at), chord.normalized(), point) &&
+      (point.Point - out.Point).norm() <= chord.norm())
+    {
+      out.UV = point.UV[0];
+      out.Point = point.Point;
+    }
+  }
   return out;
 }
 

@@ -65,7 +65,7 @@ Vec2 ImageAt(const ViewLine& line, LinePosition at);
 /// (u, v) on the line's own face; on the face given, which may be the other one of an intersection.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at);
 Vec2 ParametersAt(const ViewLine& line, LinePosition at, std::int64_t face);
-/// The same, moved from the chord to the edge's curve; other lines: to the own face's surface.
+/// The same, moved from the chord to the edge's or intersection curve; silhouettes: to the surface.
 ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at);
 /// Share of the trim curves; of edges only.
 double ShareAt(const ViewLine& line, LinePosition at);
