@@ -543,7 +543,11 @@ void RegionLifter::Close(RegionLoop& loop) const
     const bool isNear = (this->Point(end) - this->Point(start)).norm() <= 8.0 * this->Precision &&
       std::abs(end[0] - start[0]) < FarParameters * this->Surface.Domain(0).Length() &&
       std::abs(end[1] - start[1]) < FarParameters * this->Surface.Domain(1).Length();
-    bool joined = end == start;
+    // Gaps that the model's own loops may have.
+    bool joined =
+      std::abs(end[0] - start[0]) <= SameParameters * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) <= SameParameters * this->Surface.Domain(1).Length();
+    joined = end == start || (joined && piece.Curve >= 0 && next.Curve >= 0);
     if (!joined && isNear && next.Curve < 0 && next.Polyline.size() > 1)
     {
       next.Polyline.front() = end;
