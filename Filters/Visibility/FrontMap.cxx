@@ -168,9 +168,8 @@ FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at
   return out;
 }
 
-FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
-  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
-  const std::function<bool(double)>& progress)
+FrontMap MakeLineMap(const ViewLines& lines, const std::vector<LinePart>& parts, double pixel,
+  const ParallelFor& parallel)
 {
   FrontMap map;
   map.Pixel = pixel;
@@ -189,8 +188,91 @@ FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts
   map.Snapped = SnapRound(points, segments, parallel);
   map.Plane = MakePlanarMap(map.Snapped, SamplesPerCell);
   CollectSources(map);
+  return map;
+}
+
+FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
+  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress)
+{
+  FrontMap map = MakeLineMap(lines, parts, pixel, parallel);
   LookAtCells(image, caster, parallel, progress, map);
   return map;
+}
+
+LineWalk::LineWalk(const FrontMap& map)
+  : Map(map)
+  , Degree(map.Snapped.Vertices.size(), 0)
+{
+  for (const auto& ends : map.Snapped.Edges)
+  {
+    ++this->Degree[ends[0]];
+    ++this->Degree[ends[1]];
+  }
+}
+
+std::vector<LineStep> LineWalk::Steps(std::int64_t line) const
+{
+  std::vector<LineStep> out;
+  const SnappedSegments& snapped = this->Map.Snapped;
+  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
+  {
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
+    {
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      std::int64_t k = this->Map.SourceStart[edge];
+      while (this->Map.Sources[k].Segment != s)
+      {
+        ++k;
+      }
+      out.push_back({ edge, k });
+    }
+  }
+  return out;
+}
+
+LinePosition LineWalk::Start(const std::vector<ViewLine>& lines, const LineStep& step) const
+{
+  const LineSource& source = this->Map.Sources[step.Source];
+  return this->Map.At(lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 1 : 0]);
+}
+
+LinePosition LineWalk::End(const std::vector<ViewLine>& lines, const LineStep& step) const
+{
+  const LineSource& source = this->Map.Sources[step.Source];
+  return this->Map.At(lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 0 : 1]);
+}
+
+std::size_t LineWalk::GroupEnd(const std::vector<LineStep>& steps, std::size_t first) const
+{
+  std::size_t last = first + 1;
+  while (last < steps.size())
+  {
+    const LineStep& step = steps[last];
+    const int start = this->Map.Sources[step.Source].Backward ? 1 : 0;
+    if (this->Degree[this->Map.Snapped.Edges[step.Edge][start]] != 2 ||
+      this->Cell(step, 0) != this->Cell(steps[first], 0) ||
+      this->Cell(step, 1) != this->Cell(steps[first], 1))
+    {
+      break;
+    }
+    ++last;
+  }
+  return last;
+}
+
+const LineStep& LineWalk::Widest(
+  const std::vector<LineStep>& steps, std::size_t first, std::size_t last, int lineSide) const
+{
+  const auto room = [&](std::size_t k) {
+    return this->Map.Plane.SideSamples[steps[k].Edge][this->Side(steps[k], lineSide)].Radius;
+  };
+  std::size_t best = first + (last - first) / 2;
+  for (std::size_t k = first; k < last; ++k)
+  {
+    best = room(k) > room(best) ? k : best;
+  }
+  return steps[best];
 }
 
 namespace
@@ -330,65 +412,22 @@ public:
     , Image(image)
     , Caster(caster)
     , Map(map)
-    , Degree(map.Snapped.Vertices.size(), 0)
-  {
-    for (const auto& ends : map.Snapped.Edges)
-    {
-      ++this->Degree[ends[0]];
-      ++this->Degree[ends[1]];
-    }
-  }
+    , Walk(map)
+  {}
 
   void Find(std::int64_t line);
 
 private:
-  // The source of a line along one edge.
-  struct Step
-  {
-    std::int32_t Edge;
-    std::int64_t Source;
-  };
-
-  std::vector<Step> Steps(std::int64_t line) const;
-  bool StartsAtNode(const Step& step) const;
-  bool Shows(const ViewLine& line, const Step& step, int side) const;
+  bool Shows(const ViewLine& line, const LineStep& step, int side) const;
 
   const ViewLines& Lines;
   const ImagePlane& Image;
   const RayCaster& Caster;
   FrontMap& Map;
-  std::vector<std::int32_t> Degree; // Edges at each vertex.
+  LineWalk Walk;
 };
 
-// Where other lines meet this one; it may become hidden there although one of its cells goes on: all
-// lines touch the silhouette at which they turn away.
-bool ShownLines::StartsAtNode(const Step& step) const
-{
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  return this->Degree[ends[this->Map.Sources[step.Source].Backward ? 1 : 0]] != 2;
-}
-
-std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
-{
-  std::vector<Step> out;
-  const SnappedSegments& snapped = this->Map.Snapped;
-  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
-  {
-    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
-    {
-      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
-      std::int64_t k = this->Map.SourceStart[edge];
-      while (this->Map.Sources[k].Segment != s)
-      {
-        ++k;
-      }
-      out.push_back({ edge, k });
-    }
-  }
-  return out;
-}
-
-bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
+bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
   const Vec2 beside = this->Map.Beside(step.Edge, side);
@@ -414,48 +453,24 @@ bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
 void ShownLines::Find(std::int64_t index)
 {
   const ViewLine& line = this->Lines.Lines[index];
-  const std::vector<Step> steps = this->Steps(index);
-  const auto cellOf = [&](const Step& step, int lineSide) {
-    const int side = this->Map.Sources[step.Source].Backward ? 1 - lineSide : lineSide;
-    return this->Map.Cell(step.Edge, side);
-  };
-  for (int lineSide = 0; lineSide < 2; ++lineSide)
+  const std::vector<LineStep> steps = this->Walk.Steps(index);
+  for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
+    last = this->Walk.GroupEnd(steps, first);
     // A silhouette has its own surface on its left only.
-    if (lineSide == 1 && !line.IsEdge())
+    for (int lineSide = 0; lineSide < (line.IsEdge() ? 2 : 1); ++lineSide)
     {
-      continue;
-    }
-    for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
-    {
-      const std::int32_t cell = cellOf(steps[first], lineSide);
-      for (last = first + 1; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
-           !this->StartsAtNode(steps[last]);)
-      {
-        ++last;
-      }
-      const auto sideOf = [&](std::size_t k) {
-        return this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
-      };
-      const auto room = [&](std::size_t k) {
-        return this->Map.Plane.SideSamples[steps[k].Edge][sideOf(k)].Radius;
-      };
-      // Where there is room, and far from the ends, where sheets may be near to each other.
-      std::size_t best = first + (last - first) / 2;
-      for (std::size_t k = first; k < last; ++k)
-      {
-        best = room(k) > room(best) ? k : best;
-      }
-      const std::int64_t face = this->Map.Cells[cell].Face;
-      const int side = sideOf(best);
-      if (face < 0 || !IsOfFace(this->Lines, line, face) || !this->Shows(line, steps[best], side))
+      const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
+      const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
+      if (face < 0 || !IsOfFace(this->Lines, line, face) ||
+        !this->Shows(line, best, this->Walk.Side(best, lineSide)))
       {
         continue;
       }
       for (std::size_t k = first; k < last; ++k)
       {
-        LineSource& source = this->Map.Sources[steps[k].Source];
-        source.Shows |= std::uint8_t(1 << sideOf(k));
+        this->Map.Sources[steps[k].Source].Shows |=
+          std::uint8_t(1 << this->Walk.Side(steps[k], lineSide));
       }
     }
   }

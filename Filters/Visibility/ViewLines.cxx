@@ -265,12 +265,17 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
   out.IsShell = FindShells(out);
   const auto edges = std::int64_t(out.Whole.Data.Edges.size());
   std::vector<std::vector<EdgeEnd>> ends(edges);
+  std::vector<char> meets(edges, 0);
   for (SilhouetteLine& source : silhouettes.Lines)
   {
     ViewLine line;
     line.Crease = source.Crease;
     line.Face = source.Face;
     line.Edge = source.Edge;
+    if (line.Edge >= 0)
+    {
+      meets[line.Edge] = 1;
+    }
     line.Points = source.Points;
     if (source.Closed)
     {
@@ -287,7 +292,9 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
       if (crossing.Curve >= 0)
       {
         const TrimCurve& curve = out.Whole.Data.TrimCurves[crossing.Curve];
-        ends[curve.Edge].push_back({ ShareOf(curve, crossing.Parameter), point.Point });
+        const double share = ShareOf(curve, crossing.Parameter);
+        ends[curve.Edge].push_back({ share, point.Point });
+        meets[curve.Edge] |= share > SameShare && share < 1.0 - SameShare;
       }
     }
     out.Lines.push_back(std::move(line));
@@ -301,6 +308,7 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
       {
         out.Lines[first + e] = MakeEdgeLine(out, e, options);
         InsertEnds(out, std::move(ends[e]), out.Lines[first + e]);
+        out.Lines[first + e].MeetsSilhouette = meets[e] != 0;
       }
     }
   });

@@ -21,6 +21,8 @@ struct ViewLine
   /// Edges: shares of every use's trim curve, 0 at its Domain().Min, that belong to the points.
   std::vector<double> Shares;
   std::vector<Vec2> Image;
+  /// Edges: a silhouette runs along it, or ends on it but at its ends.
+  bool MeetsSilhouette = false;
   /// All of its faces face away, and the outside of a closed shell is all that can be seen.
   bool IsBehind = false;
 
