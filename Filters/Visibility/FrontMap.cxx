@@ -444,7 +444,8 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
   const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
   const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
   Vec2 uv = hit.UV;
-  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, uv);
+  const int sheet = hit.FromBehind == this->Lines.Whole.Data.Faces[hit.Face].Reversed ? 1 : -1;
+  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, sheet, uv);
   return (Evaluate(surface, uv[0], uv[1]) - point).norm() <=
     NearerShare * (hit.Point - point).norm();
 }

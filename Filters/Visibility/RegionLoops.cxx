@@ -255,8 +255,15 @@ private:
   void AddOwn(const Step& first, const Step& last, RegionLoop& out) const;
   void AddShadow(
     const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out);
-  void RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB, const Vec2& b, int depth,
-    std::vector<Vec2>& out) const;
+  // A point of a shadow.
+  struct ShadowPoint
+  {
+    Vec2 Image;
+    Vec2 UV;
+  };
+
+  void RefineShadow(
+    const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const;
   Vec2 Seed(HalfEdge half) const;
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
   void DropExcursions(RegionLoop& loop) const;
@@ -416,50 +423,65 @@ Vec2 RegionLifter::Seed(HalfEdge half) const
 }
 
 // Adds points between two of a shadow till the lifted middle is on the chord.
-void RegionLifter::RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB,
-  const Vec2& b, int depth, std::vector<Vec2>& out) const
+void RegionLifter::RefineShadow(
+  const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const
 {
   if (depth == 0)
   {
     return;
   }
-  const Vec2 image = 0.5 * (imageA + imageB);
-  const Vec2 straight = 0.5 * (a + b);
-  Vec2 middle = straight;
-  if (!this->Image.Lift(this->Surface, image, this->Precision, middle) ||
-    (this->Point(middle) - this->Point(straight)).norm() <= this->Precision)
+  const Vec2 straight = 0.5 * (a.UV + b.UV);
+  ShadowPoint middle{ 0.5 * (a.Image + b.Image), straight };
+  if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
+  {
+    middle.UV = a.UV;
+    if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
+    {
+      return;
+    }
+  }
+  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision)
   {
     return;
   }
-  this->RefineShadow(imageA, a, image, middle, depth - 1, out);
-  out.push_back(middle);
-  this->RefineShadow(image, middle, imageB, b, depth - 1, out);
+  this->RefineShadow(a, middle, sheet, depth - 1, out);
+  out.push_back(middle.UV);
+  this->RefineShadow(middle, b, sheet, depth - 1, out);
 }
 
+// Each point is found from the one before, or from what is seen beside the border.
 void RegionLifter::AddShadow(
   const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out)
 {
   const auto image = [&](const Step& step, LinePosition at) {
     return ImageAt(this->Lines.Lines[step.Source->Line], at);
   };
+  const auto lift = [&](const Step& step, const Vec2& from, ShadowPoint& point) {
+    const int sheet = this->IsFlipped(step.Half) ? -1 : 1;
+    point.UV = from;
+    if (!this->Image.Lift(this->Surface, point.Image, this->Precision, sheet, point.UV))
+    {
+      ShadowPoint other = point;
+      other.UV = this->Seed(step.Half);
+      this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
+      const auto miss = [&](const ShadowPoint& one) {
+        return (this->Image.Project(this->Point(one.UV)) - one.Image).norm();
+      };
+      point = miss(other) < miss(point) ? other : point;
+    }
+  };
   RegionPiece piece;
-  Vec2 uv = this->Seed(steps[begin].Half);
-  Vec2 at = image(steps[begin], steps[begin].From);
-  this->Image.Lift(this->Surface, at, this->Precision, uv);
-  piece.Polyline.push_back(uv);
+  ShadowPoint before{ image(steps[begin], steps[begin].From), Vec2::Zero() };
+  lift(steps[begin], this->Seed(steps[begin].Half), before);
+  piece.Polyline.push_back(before.UV);
   for (std::size_t k = begin; k < end; ++k)
   {
-    const Vec2 next = image(steps[k], steps[k].To);
-    Vec2 nextUV = uv;
-    if (!this->Image.Lift(this->Surface, next, this->Precision, nextUV))
-    {
-      nextUV = this->Seed(steps[k].Half);
-      this->Image.Lift(this->Surface, next, this->Precision, nextUV);
-    }
-    this->RefineShadow(at, uv, next, nextUV, MaxShadowDepth, piece.Polyline);
-    piece.Polyline.push_back(nextUV);
-    uv = nextUV;
-    at = next;
+    ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
+    lift(steps[k], before.UV, next);
+    this->RefineShadow(
+      before, next, this->IsFlipped(steps[k].Half) ? -1 : 1, MaxShadowDepth, piece.Polyline);
+    piece.Polyline.push_back(next.UV);
+    before = next;
   }
   out.push_back(std::move(piece));
 }
