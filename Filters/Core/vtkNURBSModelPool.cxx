@@ -179,16 +179,28 @@ bool vtkNURBSModelPool::IsUpToDate(vtkDataObject* input) const
   return same && next == this->Leaves.size();
 }
 
-bool vtkNURBSModelPool::MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports)
+namespace
+{
+
+vtkDataObject* NewLeaf(bool isModel)
+{
+  return isModel ? static_cast<vtkDataObject*>(vtkUnstructuredGrid::New()) : vtkPolyData::New();
+}
+
+} // namespace
+
+bool vtkNURBSModelPool::MakeOutputs(
+  vtkDataObject* input, vtkInformationVector* outputs, int ports, int modelPorts)
 {
   if (!input)
   {
     return false;
   }
   const bool composite = input->IsA("vtkCompositeDataSet");
-  const char* type = composite ? input->GetClassName() : "vtkPolyData";
   for (int port = 0; port < ports; ++port)
   {
+    const char* leaf = port < modelPorts ? "vtkUnstructuredGrid" : "vtkPolyData";
+    const char* type = composite ? input->GetClassName() : leaf;
     vtkInformation* info = outputs->GetInformationObject(port);
     vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
     if (output && std::string(output->GetClassName()) == type)
@@ -196,7 +208,7 @@ bool vtkNURBSModelPool::MakeOutputs(vtkDataObject* input, vtkInformationVector* 
       continue;
     }
     vtkSmartPointer<vtkDataObject> made;
-    made.TakeReference(composite ? input->NewInstance() : vtkPolyData::New());
+    made.TakeReference(composite ? input->NewInstance() : NewLeaf(port < modelPorts));
     info->Set(vtkDataObject::DATA_OBJECT(), made);
   }
   return true;
@@ -222,15 +234,15 @@ void vtkNURBSModelPool::CopyTree(vtkDataObject* input, vtkDataObject* output)
   }
 }
 
-std::vector<vtkPolyData*> vtkNURBSModelPool::MakeLeaves(
-  vtkDataObject* input, vtkDataObject* output) const
+template <typename LeafT>
+std::vector<LeafT*> vtkNURBSModelPool::MakeLeaves(vtkDataObject* input, vtkDataObject* output) const
 {
-  std::vector<vtkPolyData*> out;
+  std::vector<LeafT*> out;
   auto* from = vtkCompositeDataSet::SafeDownCast(input);
   auto* to = vtkCompositeDataSet::SafeDownCast(output);
   if (!from || !to)
   {
-    out.assign(this->Leaves.size(), vtkPolyData::SafeDownCast(output));
+    out.assign(this->Leaves.size(), LeafT::SafeDownCast(output));
     return out;
   }
   vtkSmartPointer<vtkCompositeDataIterator> at;
@@ -239,13 +251,18 @@ std::vector<vtkPolyData*> vtkNURBSModelPool::MakeLeaves(
   {
     if (!IsEmptyGrid(at->GetCurrentDataObject()))
     {
-      vtkNew<vtkPolyData> leaf;
+      vtkNew<LeafT> leaf;
       to->SetDataSet(at, leaf);
       out.push_back(leaf);
     }
   }
   return out;
 }
+
+template VTKNURBSFILTERSCORE_EXPORT std::vector<vtkPolyData*>
+vtkNURBSModelPool::MakeLeaves<vtkPolyData>(vtkDataObject*, vtkDataObject*) const;
+template VTKNURBSFILTERSCORE_EXPORT std::vector<vtkUnstructuredGrid*>
+vtkNURBSModelPool::MakeLeaves<vtkUnstructuredGrid>(vtkDataObject*, vtkDataObject*) const;
 
 void vtkNURBSModelPool::SetLeaves(
   vtkDataObject* input, vtkDataObject* output, const std::vector<vtkPolyData*>& leaves)

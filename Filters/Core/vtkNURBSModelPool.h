@@ -59,16 +59,19 @@ public:
   /// "block 2 (wheel): ", of a block's index and what is told of it (may be null).
   static std::string BlockName(unsigned int index, vtkInformation* about);
 
-  /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject.
-  /// False: there is no input.
-  static bool MakeOutputs(vtkDataObject* input, vtkInformationVector* outputs, int ports);
+  /// Makes sure that the outputs of all `ports` are of the right type; for RequestDataObject. The first
+  /// `modelPorts` of them are models themselves. False: there is no input.
+  static bool MakeOutputs(
+    vtkDataObject* input, vtkInformationVector* outputs, int ports, int modelPorts = 0);
   /// Empties an output and gives it the input's structure and assembly.
   static void CopyTree(vtkDataObject* input, vtkDataObject* output);
   /// Gives a composite output one data set for every model, in order.
   static void SetLeaves(
     vtkDataObject* input, vtkDataObject* output, const std::vector<vtkPolyData*>& leaves);
-  /// The output's data of every leaf, in order; made new in a composite.
-  std::vector<vtkPolyData*> MakeLeaves(vtkDataObject* input, vtkDataObject* output) const;
+  /// The output's data of every leaf, in order; made new in a composite. LeafT: vtkPolyData, or
+  /// vtkUnstructuredGrid for a port of models.
+  template <typename LeafT = vtkPolyData>
+  std::vector<LeafT*> MakeLeaves(vtkDataObject* input, vtkDataObject* output) const;
 };
 
 #endif

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSParallel.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <future>
 
 namespace
 {
 
 /// Ranges a thread: enough for balance, few enough to cost nothing.
 constexpr std::int64_t RangesAThread = 256;
+
+constexpr std::chrono::milliseconds ProgressInterval(20);
 
 } // namespace
 
@@ -74,4 +79,27 @@ void vtkNURBSParallelFor(std::int64_t first, std::int64_t last,
   {
     std::rethrow_exception(failure);
   }
+}
+
+void vtkNURBSRunWithProgress(vtkAlgorithm* self, bool quick, double from, double to,
+  const std::function<void(const std::function<bool(double)>& progress)>& work)
+{
+  std::atomic<double> progress{ 0.0 };
+  std::atomic<bool> abort{ false };
+  const auto report = [&]() {
+    self->UpdateProgress(from + (to - from) * progress);
+    abort = abort || self->GetAbortExecute() != 0;
+  };
+  report();
+  auto result = std::async(quick ? std::launch::deferred : std::launch::async, [&]() {
+    work([&](double done) {
+      progress = done;
+      return !abort;
+    });
+  });
+  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
+  {
+    report();
+  }
+  result.get();
 }

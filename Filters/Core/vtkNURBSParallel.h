@@ -16,6 +16,8 @@
 
 #include <string> // For std::string
 
+class vtkAlgorithm;
+
 /// Makes vtkSMPTools parallel while it lives. Not to be made in several threads at once.
 class VTKNURBSFILTERSCORE_EXPORT vtkNURBSParallelScope
 {
@@ -34,5 +36,13 @@ private:
 /// `body` throws ends the loop early and is thrown again in the calling thread.
 VTKNURBSFILTERSCORE_EXPORT void vtkNURBSParallelFor(std::int64_t first, std::int64_t last,
   const std::function<void(std::int64_t begin, std::int64_t end)>& body);
+
+/// Runs `work` in another thread, whichever threads it is spread over there, so that observers of the
+/// progress of `self` run in this one, are called while it lasts, and can abort it. `work` calls its
+/// argument, from any thread, with the share done, and stops when that returns false. Progress goes from
+/// `from` to `to`. What takes less time than a thread needs to start (`quick`) is done in this thread.
+/// Exceptions of `work` are thrown again here.
+VTKNURBSFILTERSCORE_EXPORT void vtkNURBSRunWithProgress(vtkAlgorithm* self, bool quick, double from,
+  double to, const std::function<void(const std::function<bool(double)>& progress)>& work);
 
 #endif

@@ -20,7 +20,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <future>
 #include <numeric>
 #include <sstream>
 
@@ -31,7 +30,6 @@ namespace
 {
 
 constexpr int MaxNamedFaces = 8; // in the warning
-constexpr std::chrono::milliseconds ProgressInterval(20);
 constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
 constexpr std::int64_t QuickPoints = 512;
 
@@ -158,40 +156,24 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   return true;
 }
 
-// The work is done in another thread, whichever threads it is spread over there, so that observers
-// of the progress run in this one, are called while it lasts, and can abort it. What takes less time
-// than a thread needs to start is done here.
 bool vtkNURBSTessellator::Tessellate(Work& work)
 {
-  std::atomic<double> progress{ 0.0 };
-  std::atomic<bool> abort{ false };
-  const auto report = [this, &progress, &abort]() {
-    this->UpdateProgress(0.95 * progress);
-    abort = abort || this->GetAbortExecute() != 0;
-  };
-  work.Options.Progress = [&progress, &abort](double done) {
-    progress = done;
-    return !abort;
-  };
-  report();
   const bool quick =
     work.Pool.Model.Faces.size() <= QuickFaces && ControlPoints(work.Pool.Model) <= QuickPoints;
-  auto result = std::async(quick ? std::launch::deferred : std::launch::async,
-    [&work]() { return nurbs::Tessellate(work.Pool.Model, work.Pool.FaceErrors, work.Options); });
-  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
-  {
-    report();
-  }
   try
   {
-    work.Result = result.get();
+    vtkNURBSRunWithProgress(
+      this, quick, 0.0, 0.95, [&work](const std::function<bool(double)>& progress) {
+        work.Options.Progress = progress;
+        work.Result = nurbs::Tessellate(work.Pool.Model, work.Pool.FaceErrors, work.Options);
+      });
   }
   catch (const std::exception& problem)
   {
     vtkErrorMacro("Tessellation failed: " << problem.what());
     return false;
   }
-  work.Result.Aborted = work.Result.Aborted || abort;
+  work.Result.Aborted = work.Result.Aborted || this->GetAbortExecute() != 0;
   return true;
 }
 

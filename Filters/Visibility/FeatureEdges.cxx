@@ -15,6 +15,12 @@ constexpr int StraightSamples = 15;
 constexpr int FirstParts = 4; // Of a Bezier piece of a trim curve that is not straight.
 constexpr int MaxChordDepth = 30;
 
+// A point of an edge, and where it is in a Bezier piece of the trim curve.
+struct EdgePoint : ContourPoint
+{
+  double Share = 0.0;
+};
+
 ContourPoint Lift(const SurfaceView& surface, const Vec2& uv)
 {
   ContourPoint out;
@@ -83,11 +89,12 @@ LineKind KindOfEdge(
   return LineKind::Smooth;
 }
 
-std::vector<ContourPoint> LiftEdge(
-  const Model& model, const EdgeUse& use, const Interval& range, double precision)
+std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, const Interval& range,
+  double precision, std::vector<double>* parameters)
 {
   const SurfaceView& surface = model.Faces[use.Face].Geometry;
   std::vector<ContourPoint> out;
+  std::vector<double> at;
   for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[use.Curve].Geometry))
   {
     const double low = (range.Clamp(piece.T0) - piece.T0) / (piece.T1 - piece.T0);
@@ -96,33 +103,47 @@ std::vector<ContourPoint> LiftEdge(
     {
       continue;
     }
-    const auto at = [&](double t) {
-      return Lift(surface, piece.Evaluate(t < 1.0 ? low + t * (high - low) : high));
+    const auto point = [&](double t) {
+      EdgePoint p;
+      p.Share = t < 1.0 ? low + t * (high - low) : high;
+      static_cast<ContourPoint&>(p) = Lift(surface, piece.Evaluate(p.Share));
+      return p;
     };
-    ContourPoint a = out.empty() ? at(0.0) : out.back();
-    const ContourPoint end = at(1.0);
+    const auto add = [&](const EdgePoint& p) {
+      out.push_back(p);
+      at.push_back(piece.T0 + p.Share * (piece.T1 - piece.T0));
+    };
+    EdgePoint a = point(0.0);
+    const EdgePoint end = point(1.0);
     if (out.empty())
     {
-      out.push_back(a);
+      add(a);
     }
     bool straight = true;
     for (int k = 1; k <= StraightSamples && straight; ++k)
     {
-      straight = DistanceToSegment(at(double(k) / (StraightSamples + 1)).Point, a.Point,
+      straight = DistanceToSegment(point(double(k) / (StraightSamples + 1)).Point, a.Point,
                    end.Point) <= 0.9 * precision;
     }
     const int parts = straight ? 1 : FirstParts;
+    std::vector<EdgePoint> inner;
     for (int k = 1; k <= parts; ++k)
     {
-      const ContourPoint b = k == parts ? end : at(double(k) / parts);
+      const EdgePoint b = k == parts ? end : point(double(k) / parts);
+      inner.clear();
       if (!straight)
       {
         RefineChord(
-          at, precision, double(k - 1) / parts, a, double(k) / parts, b, MaxChordDepth, out);
+          point, precision, double(k - 1) / parts, a, double(k) / parts, b, MaxChordDepth, inner);
       }
-      out.push_back(b);
+      std::for_each(inner.begin(), inner.end(), add);
+      add(b);
       a = b;
     }
+  }
+  if (parameters)
+  {
+    *parameters = std::move(at);
   }
   return out;
 }

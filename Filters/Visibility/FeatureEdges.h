@@ -30,8 +30,8 @@ LineKind KindOfEdge(
   const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses, double featureAngle);
 
 /// The part `range` (parameters of the trim curve, Min < Max) of a use lifted to its surface, in the
-/// edge's direction, within `precision`.
-std::vector<ContourPoint> LiftEdge(
-  const Model& model, const EdgeUse& use, const Interval& range, double precision);
+/// edge's direction, within `precision`. `parameters` receives those of the trim curve.
+std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, const Interval& range,
+  double precision, std::vector<double>* parameters = nullptr);
 
 } // namespace nurbs

@@ -98,17 +98,18 @@ int LineNode(const PatchContour& patch, const Viewer& viewer, ContourLine& line,
   std::size_t k, std::vector<ContourPoint>& nodes);
 
 /// Adds points between `a` and `b`, till chords are within `precision`. `at(t)` is the point at
-/// 0 < t < 1 on the way from a to b.
-template <typename At>
-void RefineChord(const At& at, double precision, double ta, const ContourPoint& a, double tb,
-  const ContourPoint& b, int depth, std::vector<ContourPoint>& out);
+/// 0 < t < 1 on the way from a to b, a ContourPoint or
+/// derived from it.
+template <typename At, typename P>
+void RefineChord(const At& at, double precision, double ta, const P& a, double tb, const P& b,
+  int depth, std::vector<P>& out);
 
 /// Distance of p from the segment from a to b.
 double DistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 
-template <typename At>
-void RefineChord(const At& at, double precision, double ta, const ContourPoint& a, double tb,
-  const ContourPoint& b, int depth, std::vector<ContourPoint>& out)
+template <typename At, typename P>
+void RefineChord(const At& at, double precision, double ta, const P& a, double tb, const P& b,
+  int depth, std::vector<P>& out)
 {
   if (depth == 0)
   {
@@ -119,7 +120,7 @@ void RefineChord(const At& at, double precision, double ta, const ContourPoint& 
   constexpr double Share = 0.9;
   constexpr double LargestGap = 0.6;
   const double tm = 0.5 * (ta + tb);
-  const ContourPoint middle = at(tm);
+  const P middle = at(tm);
   if (DistanceToSegment(middle.Point, a.Point, b.Point) <= Share * precision)
   {
     const Vec3 first = at(0.5 * (ta + tm)).Point;

@@ -376,28 +376,54 @@ private:
     return { a + (lengthB * ab + lengthC * ac) / around, double(DoubleArea(face)) / around };
   }
 
-  // Touches the middle of an edge; side 0: from the left.
-  PlanarSample UnitCircle(std::size_t edge, int side) const
+  // From the middle of an edge into the cell, straight away from it. Walks
+  // through triangles till an edge bars the way.
+  PlanarSample LookAside(std::size_t edge, int side) const
   {
-    const GridPoint& p = this->Segments.Vertices[this->Segments.Edges[edge][0]];
-    const GridPoint& q = this->Segments.Vertices[this->Segments.Edges[edge][1]];
-    const Vec2 start(p.X, p.Y);
-    const Vec2 along = Vec2(q.X, q.Y) - start;
-    const Vec2 left = Vec2(-along[1], along[0]).normalized();
-    return { start + 0.5 * along + (side == 0 ? left : Vec2(-left)), 1.0 };
+    const Vec2 p = Position(this->Segments.Vertices[this->Segments.Edges[edge][0]]);
+    const Vec2 q = Position(this->Segments.Vertices[this->Segments.Edges[edge][1]]);
+    const Vec2 middle = 0.5 * (p + q);
+    const Vec2 along = (side == 0 ? 1.0 : -1.0) * (q - p).normalized();
+    const Vec2 way(-along[1], along[0]);
+    double free = 2.0 * SideReach;
+    if (!this->IsFlat())
+    {
+      Face face = this->Beside[edge][side];
+      Face from = this->Beside[edge][1 - side];
+      for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face);)
+      {
+        const int index = face->index(from);
+        const Vec2 apex = Place(face->vertex(index)) - middle;
+        // Left of the apex through the edge that is not the right end's, which follows the apex last.
+        const bool leavesLeft = Cross(way, apex) < 0.0;
+        const int out = leavesLeft ? Triangulation::cw(index) : Triangulation::ccw(index);
+        const Vec2 a = Place(face->vertex(Triangulation::ccw(out))) - middle;
+        const Vec2 b = Place(face->vertex(Triangulation::cw(out))) - middle;
+        const double slope = Cross(way, b - a);
+        reached = slope != 0.0 ? std::max(reached, Cross(a, b - a) / slope) : reached;
+        if (face->is_constrained(out))
+        {
+          free = std::min(free, reached);
+          break;
+        }
+        from = face;
+        face = face->neighbor(out);
+      }
+    }
+    return { middle + 0.5 * free * way, 0.5 * free };
   }
+
+  static Vec2 Position(const GridPoint& p) { return Vec2(double(p.X), double(p.Y)); }
+  static double Cross(const Vec2& a, const Vec2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
   void SampleSides()
   {
     this->Map.SideSamples.resize(this->Segments.Edges.size());
     for (std::size_t e = 0; e < this->Segments.Edges.size(); ++e)
     {
-      const std::array<Face, 2>& faces = this->Beside[e];
       for (int side = 0; side < 2; ++side)
       {
-        const bool bounded = !this->IsFlat() && !this->Mesh.is_infinite(faces[side]);
-        this->Map.SideSamples[e][side] =
-          bounded ? Incircle(faces[side]) : this->UnitCircle(e, side);
+        this->Map.SideSamples[e][side] = this->LookAside(e, side);
       }
     }
   }

@@ -21,14 +21,18 @@ struct PlanarSample
   double Radius = 0.0;
 };
 
+/// See PlanarMap::SideSamples; pixels.
+inline constexpr double SideReach = 4.0;
+
 struct PlanarMap
 {
   /// Cell 0 is the unbounded one; others are numbered as the edges meet them, left before right.
   std::int32_t CellCount = 0;
   /// For each edge the cell to the left and to the right of its way from Start to End.
   std::vector<std::array<std::int32_t, 2>> Sides;
-  /// A sample near the middle of the edge, on each side: the incircle of the triangle there, or,
-  /// where the convex hull ends, the circle of radius 1 that touches the middle.
+  /// A point in the cell beside the edge, on each side: on the perpendicular through the edge's middle,
+  /// half way to the next edge, but SideReach away at most; the radius is the distance from the edge
+  /// (another edge may pass nearer).
   std::vector<std::array<PlanarSample, 2>> SideSamples;
   /// Area of each cell without its holes; infinity for cell 0.
   std::vector<double> Areas;

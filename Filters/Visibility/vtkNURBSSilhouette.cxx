@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSSilhouette.h"
 
-#include "ModelExtent.h"
-#include "vtkCamera.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -16,21 +14,15 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <future>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSSilhouette);
-vtkCxxSetObjectMacro(vtkNURBSSilhouette, Camera, vtkCamera);
 
 namespace
 {
 
 constexpr int MaxNamedFaces = 8; // in the warning
-constexpr std::chrono::milliseconds ProgressInterval(20);
-constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
 
 double Now()
 {
@@ -49,23 +41,7 @@ struct vtkNURBSSilhouette::Work
 
 vtkNURBSSilhouette::vtkNURBSSilhouette() = default;
 
-vtkNURBSSilhouette::~vtkNURBSSilhouette()
-{
-  this->SetCamera(nullptr);
-}
-
-vtkMTimeType vtkNURBSSilhouette::GetMTime()
-{
-  const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->Camera ? std::max(own, this->Camera->GetMTime()) : own;
-}
-
-int vtkNURBSSilhouette::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  return 1;
-}
+vtkNURBSSilhouette::~vtkNURBSSilhouette() = default;
 
 int vtkNURBSSilhouette::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -73,71 +49,23 @@ int vtkNURBSSilhouette::RequestDataObject(
   return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
 }
 
-std::string vtkNURBSSilhouette::CheckOptions() const
-{
-  std::ostringstream problem;
-  if (!(this->Precision > 0.0) || !std::isfinite(this->Precision))
-  {
-    problem << "Precision must be positive, but is " << this->Precision;
-  }
-  else if (!(this->FeatureAngle > 0.0 && this->FeatureAngle <= 180.0))
-  {
-    problem << "FeatureAngle must be in (0, 180], but is " << this->FeatureAngle;
-  }
-  return problem.str();
-}
-
-// Fills in where the model is seen from, and makes the lines in another thread, so that observers of
-// the progress run in this one and can abort it.
 void vtkNURBSSilhouette::Make(Work& work)
 {
   nurbs::SilhouetteOptions& options = work.Options;
-  const double* place = this->Projection == PERSPECTIVE ? this->EyePoint : this->Direction;
-  options.View.Perspective = this->Projection == PERSPECTIVE;
-  double back[3];
-  if (this->Camera)
-  {
-    options.View.Perspective = !this->Camera->GetParallelProjection();
-    this->Camera->GetDirectionOfProjection(back);
-    vtkMath::MultiplyScalar(back, -1.0);
-    place = options.View.Perspective ? this->Camera->GetPosition() : back;
-  }
-  options.View.Place = nurbs::Vec3(place[0], place[1], place[2]);
-  options.FeatureAngle = vtkMath::RadiansFromDegrees(this->FeatureAngle);
-  const bool kinds[] = { this->Silhouettes, this->BoundaryEdges, this->SharpEdges,
-    this->SmoothEdges };
-  std::copy(std::begin(kinds), std::end(kinds), options.Kinds);
-  options.Parallel = vtkNURBSParallelFor;
   const vtkNURBSModelPool& pool = work.Pool;
-  const double size =
-    nurbs::Diagonal(nurbs::FaceBoxes(pool.Model, pool.FaceErrors, vtkNURBSParallelFor));
-  options.Precision =
-    this->Precision * (this->PrecisionMode == RELATIVE && size > 0.0 ? size : 1.0);
-  options.Parts.resize(pool.Model.Faces.size());
-  for (std::size_t k = 0; k < pool.Leaves.size(); ++k)
-  {
-    std::fill(options.Parts.begin() + pool.Leaves[k].FirstFace,
-      options.Parts.begin() + pool.Leaves[k].LastFace, int(k));
-  }
-  std::atomic<double> progress{ 0.0 };
-  std::atomic<bool> abort{ false };
-  options.Progress = [&](double done) {
-    progress = done;
-    return !abort;
-  };
-  const auto report = [&]() {
-    this->UpdateProgress(0.95 * progress);
-    abort = abort || this->GetAbortExecute() != 0;
-  };
-  report();
-  const bool quick = pool.Model.Faces.size() <= QuickFaces;
-  auto result = std::async(quick ? std::launch::deferred : std::launch::async,
-    [&]() { return nurbs::MakeSilhouettes(pool.Model, pool.FaceErrors, options); });
-  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
-  {
-    report();
-  }
-  work.Result = result.get();
+  options.View = this->MakeViewer();
+  options.Precision = this->AbsolutePrecision(pool);
+  options.FeatureAngle = vtkMath::RadiansFromDegrees(this->GetFeatureAngle());
+  const bool kinds[] = { this->GetSilhouettes(), this->GetBoundaryEdges(), this->GetSharpEdges(),
+    this->GetSmoothEdges() };
+  std::copy(std::begin(kinds), std::end(kinds), options.Kinds);
+  options.Parts = PartsOf(pool);
+  options.Parallel = vtkNURBSParallelFor;
+  vtkNURBSRunWithProgress(
+    this, IsQuick(pool), 0.0, 0.95, [&](const std::function<bool(double)>& progress) {
+      options.Progress = progress;
+      work.Result = nurbs::MakeSilhouettes(pool.Model, pool.FaceErrors, options);
+    });
 }
 
 // Counts, and names faces that were not done in one warning.
@@ -243,21 +171,6 @@ int vtkNURBSSilhouette::RequestData(
 void vtkNURBSSilhouette::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Projection: " << (this->Projection == PERSPECTIVE ? "perspective" : "parallel")
-     << "\n";
-  os << indent << "Direction: " << this->Direction[0] << " " << this->Direction[1] << " "
-     << this->Direction[2] << "\n";
-  os << indent << "EyePoint: " << this->EyePoint[0] << " " << this->EyePoint[1] << " "
-     << this->EyePoint[2] << "\n";
-  os << indent << "Camera: " << this->Camera << "\n";
-  os << indent << "PrecisionMode: " << (this->PrecisionMode == ABSOLUTE ? "absolute" : "relative")
-     << "\n";
-  os << indent << "Precision: " << this->Precision << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "Silhouettes: " << this->Silhouettes << "\n";
-  os << indent << "BoundaryEdges: " << this->BoundaryEdges << "\n";
-  os << indent << "SharpEdges: " << this->SharpEdges << "\n";
-  os << indent << "SmoothEdges: " << this->SmoothEdges << "\n";
   os << indent << "NumberOfVisiblePatches: " << this->NumberOfVisiblePatches << "\n";
   os << indent << "NumberOfInvisiblePatches: " << this->NumberOfInvisiblePatches << "\n";
   os << indent << "NumberOfPartialPatches: " << this->NumberOfPartialPatches << "\n";

@@ -27,7 +27,8 @@
  * | field data | FaceStatus (unsigned char) | 0 ok, 1 singular, 2 capped, 3 failed |
  * | field data | FaceStatusMessage (string) | why the status is not 0 |
  *
- * Silhouettes are directed: the part that faces the viewer lies on the left, seen from outside.
+ * Lines are within Precision of the exact curves; |normal . view| at the points of silhouettes is 1e-9
+ * at most, whatever the precision. Silhouettes are directed: the part that faces the viewer lies on the left, seen from outside.
  * A face that is edge-on as a whole has no silhouette; its neighbours have one along their common
  * edges, and its edges are lines of their own kind. Faces where contours cross or end (status 1) are
  * complete but for what happens within a millionth of the model's size there. Capped and failed faces
@@ -44,115 +45,14 @@
 #ifndef vtkNURBSSilhouette_h
 #define vtkNURBSSilhouette_h
 
-#include "vtkDataObjectAlgorithm.h"
-#include "vtkNURBSFiltersVisibilityModule.h" // For export macro
+#include "vtkNURBSViewAlgorithm.h"
 
-#include <memory> // For what one update makes
-
-class vtkCamera;
-
-class VTKNURBSFILTERSVISIBILITY_EXPORT vtkNURBSSilhouette : public vtkDataObjectAlgorithm
+class VTKNURBSFILTERSVISIBILITY_EXPORT vtkNURBSSilhouette : public vtkNURBSViewAlgorithm
 {
 public:
   static vtkNURBSSilhouette* New();
-  vtkTypeMacro(vtkNURBSSilhouette, vtkDataObjectAlgorithm);
+  vtkTypeMacro(vtkNURBSSilhouette, vtkNURBSViewAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum Projections
-  {
-    PARALLEL = 0,
-    PERSPECTIVE = 1
-  };
-
-  ///@{
-  /**
-   * Where the model is seen from: along Direction (PARALLEL, default), or from EyePoint. A Camera
-   * goes before all three.
-   */
-  vtkSetClampMacro(Projection, int, PARALLEL, PERSPECTIVE);
-  vtkGetMacro(Projection, int);
-  void SetProjectionToParallel() { this->SetProjection(PARALLEL); }
-  void SetProjectionToPerspective() { this->SetProjection(PERSPECTIVE); }
-  ///@}
-
-  ///@{
-  /**
-   * The direction from the model to the viewer; of any length but 0. Default (0, 0, 1).
-   */
-  vtkSetVector3Macro(Direction, double);
-  vtkGetVector3Macro(Direction, double);
-  ///@}
-
-  ///@{
-  /**
-   * The viewer's eye, in the model's coordinates. Default (0, 0, 1).
-   */
-  vtkSetVector3Macro(EyePoint, double);
-  vtkGetVector3Macro(EyePoint, double);
-  ///@}
-
-  ///@{
-  /**
-   * A camera whose position (perspective) or direction (parallel projection) is taken. Default: none.
-   */
-  void SetCamera(vtkCamera* camera);
-  vtkGetObjectMacro(Camera, vtkCamera);
-  ///@}
-
-  enum PrecisionModes
-  {
-    RELATIVE = 0,
-    ABSOLUTE = 1
-  };
-
-  ///@{
-  /**
-   * What Precision is measured in: the diagonal of the box around points of all surfaces of the input
-   * (RELATIVE, default), or units of length (ABSOLUTE).
-   */
-  vtkSetClampMacro(PrecisionMode, int, RELATIVE, ABSOLUTE);
-  vtkGetMacro(PrecisionMode, int);
-  void SetPrecisionModeToRelative() { this->SetPrecisionMode(RELATIVE); }
-  void SetPrecisionModeToAbsolute() { this->SetPrecisionMode(ABSOLUTE); }
-  ///@}
-
-  ///@{
-  /**
-   * The largest distance between the lines and the exact curves; |normal . view| at the points of
-   * silhouettes is 1e-9 at most, whatever the precision. Default 1e-4; must be positive. Useful down
-   * to 1e-8 (relative).
-   */
-  vtkSetMacro(Precision, double);
-  vtkGetMacro(Precision, double);
-  ///@}
-
-  ///@{
-  /**
-   * The angle between the normals of two faces above which their edge is sharp, in degrees. Default
-   * 30, in (0, 180].
-   */
-  vtkSetMacro(FeatureAngle, double);
-  vtkGetMacro(FeatureAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * Which lines are made: silhouettes, edges that one face uses (default on), edges sharper than
-   * FeatureAngle (default on), other edges and seams (default off).
-   */
-  vtkSetMacro(Silhouettes, bool);
-  vtkGetMacro(Silhouettes, bool);
-  vtkBooleanMacro(Silhouettes, bool);
-  vtkSetMacro(BoundaryEdges, bool);
-  vtkGetMacro(BoundaryEdges, bool);
-  vtkBooleanMacro(BoundaryEdges, bool);
-  vtkSetMacro(SharpEdges, bool);
-  vtkGetMacro(SharpEdges, bool);
-  vtkBooleanMacro(SharpEdges, bool);
-  vtkSetMacro(SmoothEdges, bool);
-  vtkGetMacro(SmoothEdges, bool);
-  vtkBooleanMacro(SmoothEdges, bool);
-  ///@}
 
   /// The values of the cell data Kind.
   enum LineKinds
@@ -195,16 +95,10 @@ public:
   vtkGetMacro(Seconds, double);
   ///@}
 
-  /**
-   * Includes the camera's.
-   */
-  vtkMTimeType GetMTime() override;
-
 protected:
   vtkNURBSSilhouette();
   ~vtkNURBSSilhouette() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
@@ -215,22 +109,9 @@ private:
   void operator=(const vtkNURBSSilhouette&) = delete;
 
   struct Work;
-  std::string CheckOptions() const;
   void Make(Work& work);
   void Summarize(const Work& work);
   void ClearResults();
-
-  int Projection = PARALLEL;
-  double Direction[3] = { 0.0, 0.0, 1.0 };
-  double EyePoint[3] = { 0.0, 0.0, 1.0 };
-  vtkCamera* Camera = nullptr;
-  int PrecisionMode = RELATIVE;
-  double Precision = 1e-4;
-  double FeatureAngle = 30.0;
-  bool Silhouettes = true;
-  bool BoundaryEdges = true;
-  bool SharpEdges = true;
-  bool SmoothEdges = false;
 
   vtkIdType NumberOfVisiblePatches = 0;
   vtkIdType NumberOfInvisiblePatches = 0;

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSWaveletLOD);
@@ -24,7 +23,6 @@ namespace
 {
 
 constexpr int MaxNamedFaces = 8; // in the warning
-constexpr std::chrono::milliseconds ProgressInterval(20);
 constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
 
 double Now()
@@ -66,33 +64,6 @@ int vtkNURBSWaveletLOD::RequestDataObject(
   return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
 }
 
-// Runs `work(progress)` in another thread, whichever threads it is spread over there, so that
-// observers of the progress run in this one, are called while it lasts, and can abort it. Progress
-// goes from `from` to `to`.
-template <typename Work>
-static void RunWithProgress(
-  vtkAlgorithm* self, bool quick, double from, double to, const Work& work)
-{
-  std::atomic<double> progress{ 0.0 };
-  std::atomic<bool> abort{ false };
-  const auto report = [&]() {
-    self->UpdateProgress(from + (to - from) * progress);
-    abort = abort || self->GetAbortExecute() != 0;
-  };
-  report();
-  auto result = std::async(quick ? std::launch::deferred : std::launch::async, [&]() {
-    work([&](double done) {
-      progress = done;
-      return !abort;
-    });
-  });
-  while (!quick && result.wait_for(ProgressInterval) != std::future_status::ready)
-  {
-    report();
-  }
-  result.get();
-}
-
 bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
 {
   if (!(this->FinestTolerance > 0.0) || !std::isfinite(this->FinestTolerance))
@@ -130,7 +101,7 @@ bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
   work->Diagonal = diagonal > 0.0 ? diagonal : 1.0;
   options.Finest.Tolerance = scale(*work) * this->FinestTolerance;
   const bool quick = work->Pool.Model.Faces.size() <= QuickFaces;
-  RunWithProgress(this, quick, 0.0, 0.6, [&](std::function<bool(double)> progress) {
+  vtkNURBSRunWithProgress(this, quick, 0.0, 0.6, [&](const std::function<bool(double)>& progress) {
     options.Progress = progress;
     work->Model =
       std::make_unique<nurbs::WaveletModel>(work->Pool.Model, work->Pool.FaceErrors, options);
@@ -155,7 +126,7 @@ bool vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
     (this->ToleranceMode == RELATIVE ? this->Kept->Diagonal : 1.0) * this->MaximumError;
   nurbs::WaveletModel& model = *this->Kept->Model;
   const bool quick = this->Kept->Pool.Model.Faces.size() <= QuickFaces;
-  RunWithProgress(this, quick, 0.6, 0.95, [&](std::function<bool(double)> progress) {
+  vtkNURBSRunWithProgress(this, quick, 0.6, 0.95, [&](const std::function<bool(double)>& progress) {
     model.SetProgress(progress);
     meshes.Result = this->Mode == MAXIMUM_ERROR ? model.MaximumError(meshes.Limit)
       : this->Mode == TRIANGLE_BUDGET           ? model.TriangleBudget(this->TriangleBudget)

@@ -275,7 +275,8 @@ void ExpectSamples(const SnappedSegments& segments, const PlanarMap& map, int mo
     for (int side = 0; side < 2; ++side)
     {
       const PlanarSample& sample = map.SideSamples[e][side];
-      ExpectFree(segments, map, sample, map.Sides[e][side]);
+      EXPECT_GT(sample.Radius, 0.0);
+      EXPECT_LE(sample.Radius, nurbs::SideReach);
       // It is on that side, and seen from the edge.
       const GridPoint& a = segments.Vertices[segments.Edges[e][0]];
       const GridPoint& b = segments.Vertices[segments.Edges[e][1]];
@@ -283,8 +284,10 @@ void ExpectSamples(const SnappedSegments& segments, const PlanarMap& map, int mo
         double(b.X - a.X) * (sample.Point[1] - a.Y) - double(b.Y - a.Y) * (sample.Point[0] - a.X);
       EXPECT_EQ(turn > 0.0, side == 0);
       EXPECT_NEAR(std::abs(turn) / std::hypot(b.X - a.X, b.Y - a.Y), sample.Radius, 1e-9);
-      EXPECT_LE(sample.Radius,
-        map.Sides[e][side] == 0 ? 1e300 : map.Samples[map.SampleStart[map.Sides[e][side]]].Radius);
+      // No edge crosses the way twice as far.
+      const Vec2 middle(0.5 * double(a.X + b.X), 0.5 * double(a.Y + b.Y));
+      EXPECT_NEAR((sample.Point - middle).norm(), sample.Radius, 1e-9);
+      EXPECT_TRUE(IsClear(segments, e, middle, middle + 2.0 * (1.0 - 1e-9) * (sample.Point - middle)));
     }
   }
 }

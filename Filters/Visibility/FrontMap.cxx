@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FrontMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace nurbs
+{
+
+namespace
+{
+
+// Cells whose largest circle is smaller than this, in pixels, are no cells.
+constexpr double SliverRadius = 0.75;
+// Lines of sight a cell, that show surfaces that pierce each other.
+constexpr int SamplesPerCell = 4;
+// A hit beside a line is on a sheet that ends there if the way back along the surface leads this much
+// nearer to the line. On other sheets it leads nowhere near; at a silhouette, where the surface turns
+// away, to the square root of the chord's error.
+constexpr double NearerShare = 0.6;
+
+// The segments of all parts.
+void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
+  std::vector<GridPoint>& points, std::vector<GridSegment>& segments)
+{
+  map.FirstSegment.assign(lines.Lines.size() + 1, 0);
+  for (const LinePart& part : parts)
+  {
+    const ViewLine& line = lines.Lines[part.Line];
+    const auto addPoint = [&](LinePosition at) {
+      const Vec2 grid = (ImageAt(line, at) - map.Center) / map.Pixel;
+      points.push_back({ std::llround(grid[0]), std::llround(grid[1]) });
+    };
+    addPoint(part.From);
+    for (LinePosition at = part.From; at < part.To;)
+    {
+      const LinePosition next = std::min(part.To, std::floor(at) + 1.0);
+      addPoint(next);
+      const auto last = std::int32_t(points.size() - 1);
+      segments.push_back({ last - 1, last });
+      map.Segments.push_back({ part.Line, at, next });
+      ++map.FirstSegment[part.Line + 1];
+      at = next;
+    }
+  }
+  std::partial_sum(map.FirstSegment.begin(), map.FirstSegment.end(), map.FirstSegment.begin());
+}
+
+// Which lines run along which edge.
+void CollectSources(FrontMap& map)
+{
+  const SnappedSegments& snapped = map.Snapped;
+  map.SourceStart.assign(snapped.Edges.size() + 1, 0);
+  for (const std::int32_t entry : snapped.Path)
+  {
+    ++map.SourceStart[FrontMap::EdgeOf(entry) + 1];
+  }
+  std::partial_sum(map.SourceStart.begin(), map.SourceStart.end(), map.SourceStart.begin());
+  map.Sources.resize(snapped.Path.size());
+  std::vector<std::int64_t> next(map.SourceStart.begin(), map.SourceStart.end() - 1);
+  for (std::size_t s = 0; s < map.Segments.size(); ++s)
+  {
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
+    {
+      LineSource& source = map.Sources[next[FrontMap::EdgeOf(snapped.Path[p])]++];
+      source.Line = map.Segments[s].Line;
+      source.Segment = std::int32_t(s);
+      source.Backward = snapped.Path[p] < 0;
+    }
+  }
+}
+
+// Looks at each cell; the outer one is empty.
+void LookAtCells(const ImagePlane& image, const RayCaster& caster, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress, FrontMap& map)
+{
+  const PlanarMap& plane = map.Plane;
+  map.Cells.resize(plane.CellCount);
+  std::vector<std::vector<std::int64_t>> others(plane.CellCount);
+  constexpr std::int32_t Batch = 4096;
+  for (std::int32_t first = 1; first < plane.CellCount; first += Batch)
+  {
+    const std::int32_t last = std::min(plane.CellCount, first + Batch);
+    parallel(first, last, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t c = begin; c < end; ++c)
+      {
+        const std::int64_t first = plane.SampleStart[c];
+        map.Cells[c] = LookAt(caster, image, map.ToImage(plane.Samples[first].Point));
+        for (std::int64_t k = first + 1;
+             k < plane.SampleStart[c + 1] && plane.Samples[k].Radius > SliverRadius; ++k)
+        {
+          const FrontHit other = LookAt(caster, image, map.ToImage(plane.Samples[k].Point));
+          if (other.Face != map.Cells[c].Face)
+          {
+            others[c].push_back(other.Face);
+          }
+        }
+      }
+    });
+    if (progress && !progress(double(last) / double(plane.CellCount)))
+    {
+      map.Cells.clear();
+      return;
+    }
+  }
+  std::set<std::array<std::int64_t, 2>> pairs;
+  for (std::int32_t c = 1; c < plane.CellCount; ++c)
+  {
+    for (const std::int64_t face : others[c])
+    {
+      const std::int64_t front = map.Cells[c].Face;
+      pairs.insert({ std::min(front, face), std::max(front, face) });
+    }
+  }
+  map.Piercing.assign(pairs.begin(), pairs.end());
+}
+
+} // namespace
+
+bool FrontMap::IsSliver(std::int32_t cell) const
+{
+  return cell != 0 && this->Plane.Samples[this->Plane.SampleStart[cell]].Radius < SliverRadius;
+}
+
+LinePosition FrontMap::At(
+  const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const
+{
+  const LinePart& segment = this->Segments[source.Segment];
+  const Vec2 a = ImageAt(lines[source.Line], segment.From);
+  const Vec2 along = ImageAt(lines[source.Line], segment.To) - a;
+  const double share = along.dot(this->VertexImage(vertex) - a) / along.squaredNorm();
+  // Within a pixel's reach of an end of the segment it is the end.
+  const double reach = this->Pixel / along.norm();
+  return share < reach    ? segment.From
+    : share > 1.0 - reach ? segment.To
+                          : segment.From + share * (segment.To - segment.From);
+}
+
+std::vector<LinePart> LinesInView(const ViewLines& lines)
+{
+  std::vector<LinePart> out;
+  for (std::size_t l = 0; l < lines.Lines.size(); ++l)
+  {
+    if (!lines.Lines[l].IsBehind)
+    {
+      out.push_back({ std::int32_t(l), 0.0, double(lines.Lines[l].Points.size() - 1) });
+    }
+  }
+  return out;
+}
+
+FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at)
+{
+  FrontHit out;
+  RayHit hit;
+  const Ray ray = image.Sight(at);
+  if (caster.Nearest(ray, hit))
+  {
+    out.Face = hit.Face;
+    out.UV = Vec2(hit.U, hit.V);
+    out.Point = hit.Point;
+    out.T = hit.T;
+    out.FromBehind = hit.Normal.dot(ray.Direction) > 0.0;
+  }
+  return out;
+}
+
+FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
+  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress)
+{
+  FrontMap map;
+  map.Pixel = pixel;
+  Box2 box;
+  for (const ViewLine& line : lines.Lines)
+  {
+    for (const Vec2& point : line.Image)
+    {
+      box.extend(point);
+    }
+  }
+  map.Center = box.isEmpty() ? Vec2(Vec2::Zero()) : Vec2(box.center());
+  std::vector<GridPoint> points;
+  std::vector<GridSegment> segments;
+  AddSegments(lines, parts, map, points, segments);
+  map.Snapped = SnapRound(points, segments, parallel);
+  map.Plane = MakePlanarMap(map.Snapped, SamplesPerCell);
+  CollectSources(map);
+  LookAtCells(image, caster, parallel, progress, map);
+  return map;
+}
+
+namespace
+{
+
+// Chooses for each sliver the neighbour that it goes to.
+class SliverJoiner
+{
+public:
+  SliverJoiner(const ViewLines& lines, FrontMap& map)
+    : Lines(lines)
+    , Map(map)
+    , EdgesOf(map.Plane.CellCount)
+  {
+    for (std::size_t e = 0; e < map.Plane.Sides.size(); ++e)
+    {
+      for (int side = 0; side < 2; ++side)
+      {
+        const std::int32_t cell = map.Plane.Sides[e][side];
+        if (this->Map.IsSliver(cell) && map.Plane.Sides[e][1 - side] != cell)
+        {
+          this->EdgesOf[cell].push_back(2 * std::int32_t(e) + side);
+        }
+      }
+    }
+  }
+
+  void Run();
+
+private:
+  double Length(std::int32_t edge) const
+  {
+    const auto& ends = this->Map.Snapped.Edges[edge];
+    return (this->Map.VertexImage(ends[1]) - this->Map.VertexImage(ends[0])).norm();
+  }
+  bool IsBorderOf(std::int32_t edge, const std::set<std::int64_t>& faces) const;
+  std::int32_t Choose(std::int32_t cell, const std::vector<char>& known) const;
+
+  const ViewLines& Lines;
+  FrontMap& Map;
+  std::vector<std::vector<std::int32_t>> EdgesOf; // 2 * edge + side, of slivers.
+};
+
+bool SliverJoiner::IsBorderOf(std::int32_t edge, const std::set<std::int64_t>& faces) const
+{
+  for (const LineSource& source : this->Map.SourcesOf(edge))
+  {
+    const ViewLine& line = this->Lines.Lines[source.Line];
+    for (const std::int64_t face : faces)
+    {
+      if (face >= 0 && IsOfFace(this->Lines, line, face))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// The neighbour to join, -1: none is known yet. By each neighbour: the length of the common edges that
+// no surface seen beside ends at, less that of the others.
+std::int32_t SliverJoiner::Choose(std::int32_t cell, const std::vector<char>& known) const
+{
+  std::set<std::int64_t> faces;
+  for (const std::int32_t half : this->EdgesOf[cell])
+  {
+    const std::int32_t other = this->Map.Plane.Sides[half / 2][1 - half % 2];
+    if (known[other])
+    {
+      faces.insert(this->Map.Cells[other].Face);
+    }
+  }
+  std::map<std::int32_t, double> gain;
+  for (const std::int32_t half : this->EdgesOf[cell])
+  {
+    const std::int32_t other = this->Map.Plane.Sides[half / 2][1 - half % 2];
+    if (known[other])
+    {
+      const double length = this->Length(half / 2);
+      gain[other] += this->IsBorderOf(half / 2, faces) ? -length : length;
+    }
+  }
+  const auto best = std::max_element(
+    gain.begin(), gain.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return best == gain.end() ? -1 : best->first;
+}
+
+void SliverJoiner::Run()
+{
+  std::vector<char> known(this->Map.Plane.CellCount);
+  std::vector<std::int32_t> waiting;
+  for (std::int32_t c = 0; c < this->Map.Plane.CellCount; ++c)
+  {
+    known[c] = !this->Map.IsSliver(c);
+    if (!known[c])
+    {
+      waiting.push_back(c);
+    }
+  }
+  // From outside in: slivers beside cells first.
+  while (!waiting.empty())
+  {
+    std::vector<std::pair<std::int32_t, std::int32_t>> joined;
+    std::vector<std::int32_t> left;
+    for (const std::int32_t cell : waiting)
+    {
+      const std::int32_t other = this->Choose(cell, known);
+      if (other >= 0)
+      {
+        joined.emplace_back(cell, other);
+      }
+      else
+      {
+        left.push_back(cell);
+      }
+    }
+    for (const auto& [cell, other] : joined)
+    {
+      this->Map.Cells[cell] = this->Map.Cells[other];
+      known[cell] = 1;
+    }
+    if (joined.empty())
+    {
+      return;
+    }
+    waiting = std::move(left);
+  }
+}
+
+// Says where lines end the surfaces that are seen beside them.
+class ShownLines
+{
+public:
+  ShownLines(
+    const ViewLines& lines, const ImagePlane& image, const RayCaster& caster, FrontMap& map)
+    : Lines(lines)
+    , Image(image)
+    , Caster(caster)
+    , Map(map)
+    , Degree(map.Snapped.Vertices.size(), 0)
+  {
+    for (const auto& ends : map.Snapped.Edges)
+    {
+      ++this->Degree[ends[0]];
+      ++this->Degree[ends[1]];
+    }
+  }
+
+  void Find(std::int64_t line);
+
+private:
+  // The source of a line along one edge.
+  struct Step
+  {
+    std::int32_t Edge;
+    std::int64_t Source;
+  };
+
+  std::vector<Step> Steps(std::int64_t line) const;
+  bool StartsAtNode(const Step& step) const;
+  bool Shows(const ViewLine& line, const Step& step, int side) const;
+
+  const ViewLines& Lines;
+  const ImagePlane& Image;
+  const RayCaster& Caster;
+  FrontMap& Map;
+  std::vector<std::int32_t> Degree; // Edges at each vertex.
+};
+
+// Where other lines meet this one; it may become hidden there although one of its cells goes on: all
+// lines touch the silhouette at which they turn away.
+bool ShownLines::StartsAtNode(const Step& step) const
+{
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  return this->Degree[ends[this->Map.Sources[step.Source].Backward ? 1 : 0]] != 2;
+}
+
+std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
+{
+  std::vector<Step> out;
+  const SnappedSegments& snapped = this->Map.Snapped;
+  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
+  {
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
+    {
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      std::int64_t k = this->Map.SourceStart[edge];
+      while (this->Map.Sources[k].Segment != s)
+      {
+        ++k;
+      }
+      out.push_back({ edge, k });
+    }
+  }
+  return out;
+}
+
+bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
+{
+  const LineSource& source = this->Map.Sources[step.Source];
+  const Vec2 beside = this->Map.Beside(step.Edge, side);
+  const FrontHit& front = this->Map.Front(step.Edge, side);
+  const FrontHit hit = LookAt(this->Caster, this->Image, beside);
+  if (hit.Face != front.Face)
+  {
+    return true; // Too near to tell; what the cell says goes.
+  }
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  const double at = 0.5 *
+    (this->Map.At(this->Lines.Lines, source, ends[0]) +
+      this->Map.At(this->Lines.Lines, source, ends[1]));
+  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+  const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
+  Vec2 uv = hit.UV;
+  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, uv);
+  return (Evaluate(surface, uv[0], uv[1]) - point).norm() <=
+    NearerShare * (hit.Point - point).norm();
+}
+
+// Between two crossings nothing changes: one look a side, where there is most room.
+void ShownLines::Find(std::int64_t index)
+{
+  const ViewLine& line = this->Lines.Lines[index];
+  const std::vector<Step> steps = this->Steps(index);
+  const auto cellOf = [&](const Step& step, int lineSide) {
+    const int side = this->Map.Sources[step.Source].Backward ? 1 - lineSide : lineSide;
+    return this->Map.Cell(step.Edge, side);
+  };
+  for (int lineSide = 0; lineSide < 2; ++lineSide)
+  {
+    // A silhouette has its own surface on its left only.
+    if (lineSide == 1 && !line.IsEdge())
+    {
+      continue;
+    }
+    for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
+    {
+      const std::int32_t cell = cellOf(steps[first], lineSide);
+      for (last = first + 1; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
+           !this->StartsAtNode(steps[last]);)
+      {
+        ++last;
+      }
+      const auto sideOf = [&](std::size_t k) {
+        return this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
+      };
+      const auto room = [&](std::size_t k) {
+        return this->Map.Plane.SideSamples[steps[k].Edge][sideOf(k)].Radius;
+      };
+      // Where there is room, and far from the ends, where sheets may be near to each other.
+      std::size_t best = first + (last - first) / 2;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        best = room(k) > room(best) ? k : best;
+      }
+      const std::int64_t face = this->Map.Cells[cell].Face;
+      const int side = sideOf(best);
+      if (face < 0 || !IsOfFace(this->Lines, line, face) || !this->Shows(line, steps[best], side))
+      {
+        continue;
+      }
+      for (std::size_t k = first; k < last; ++k)
+      {
+        LineSource& source = this->Map.Sources[steps[k].Source];
+        source.Shows |= std::uint8_t(1 << sideOf(k));
+      }
+    }
+  }
+}
+
+} // namespace
+
+void AbsorbSlivers(const ViewLines& lines, FrontMap& map)
+{
+  SliverJoiner(lines, map).Run();
+}
+
+void FindShownLines(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
+  FrontMap& map, const ParallelFor& parallel)
+{
+  ShownLines finder(lines, image, caster, map);
+  parallel(0, std::int64_t(lines.Lines.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t line = begin; line < end; ++line)
+    {
+      finder.Find(line);
+    }
+  });
+}
+
+} // namespace nurbs

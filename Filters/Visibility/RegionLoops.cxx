@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RegionLoops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace nurbs
+{
+
+namespace
+{
+
+constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
+// Ends of curves at which nothing is between, as a share of the domain.
+constexpr double SameParameters = 1e-6;
+
+// A half-edge 2 e + side runs along edge e and has that side's cell on its left.
+using HalfEdge = std::int32_t;
+
+// Borders of regions in the image.
+class BorderTracer
+{
+public:
+  BorderTracer(const ViewLines& lines, const FrontMap& map, bool bothSides);
+
+  /// Loops of half-edges by face.
+  std::vector<std::vector<std::vector<HalfEdge>>> Trace() const;
+
+  std::int64_t Face(HalfEdge half) const
+  {
+    const FrontHit& front = this->Map.Front(half / 2, half % 2);
+    return front.FromBehind && !this->BothSides ? -1 : front.Face;
+  }
+
+private:
+  bool IsCut(std::int32_t edge, std::int64_t face) const;
+  bool IsBorder(HalfEdge half) const;
+  HalfEdge Next(HalfEdge half) const;
+  std::vector<char> FindSpecks() const;
+  std::int32_t Start(HalfEdge half) const { return this->Map.Snapped.Edges[half / 2][half % 2]; }
+
+  const ViewLines& Lines;
+  const FrontMap& Map;
+  bool BothSides;
+  std::vector<char> Border;          // One a half-edge.
+  std::vector<std::int64_t> First;   // One a vertex, into Around; and the end.
+  std::vector<HalfEdge> Around;      // That start at the vertex, counter-clockwise.
+  std::vector<std::int32_t> PlaceOf; // Of a half-edge in Around.
+};
+
+BorderTracer::BorderTracer(const ViewLines& lines, const FrontMap& map, bool bothSides)
+  : Lines(lines)
+  , Map(map)
+  , BothSides(bothSides)
+{
+  const auto halves = HalfEdge(2 * map.Snapped.Edges.size());
+  const std::vector<GridPoint>& at = map.Snapped.Vertices;
+  this->First.assign(at.size() + 1, 0);
+  for (HalfEdge h = 0; h < halves; ++h)
+  {
+    ++this->First[this->Start(h) + 1];
+  }
+  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+  this->Around.resize(halves);
+  std::vector<std::int64_t> next(this->First.begin(), this->First.end() - 1);
+  for (HalfEdge h = 0; h < halves; ++h)
+  {
+    this->Around[next[this->Start(h)]++] = h;
+  }
+  const auto way = [&](HalfEdge h) {
+    const GridPoint& a = at[this->Start(h)];
+    const GridPoint& b = at[this->Start(h ^ 1)];
+    return GridPoint{ b.X - a.X, b.Y - a.Y };
+  };
+  // Coordinates have 30 bits, products 61.
+  const auto isUpper = [](const GridPoint& d) { return d.Y > 0 || (d.Y == 0 && d.X > 0); };
+  const auto before = [&](HalfEdge a, HalfEdge b) {
+    const GridPoint da = way(a);
+    const GridPoint db = way(b);
+    return isUpper(da) != isUpper(db) ? isUpper(da) : da.X * db.Y - da.Y * db.X > 0;
+  };
+  for (std::size_t v = 0; v < at.size(); ++v)
+  {
+    std::sort(
+      this->Around.begin() + this->First[v], this->Around.begin() + this->First[v + 1], before);
+  }
+  this->PlaceOf.resize(halves);
+  for (HalfEdge k = 0; k < halves; ++k)
+  {
+    this->PlaceOf[this->Around[k]] = k;
+  }
+  this->Border.resize(halves);
+  for (HalfEdge h = 0; h < halves; ++h)
+  {
+    this->Border[h] = this->IsBorder(h);
+  }
+}
+
+// True if the face is seen on both sides of an edge but does not go on across it.
+bool BorderTracer::IsCut(std::int32_t edge, std::int64_t face) const
+{
+  for (const LineSource& source : this->Map.SourcesOf(edge))
+  {
+    const ViewLine& line = this->Lines.Lines[source.Line];
+    if (source.Shows == 0 || !IsOfFace(this->Lines, line, face))
+    {
+      continue;
+    }
+    if (source.Shows != 3)
+    {
+      return true;
+    }
+    const std::vector<EdgeUse>& uses = this->Lines.Uses[line.Edge];
+    if (std::count_if(
+          uses.begin(), uses.end(), [&](const EdgeUse& use) { return use.Face == face; }) > 1)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BorderTracer::IsBorder(HalfEdge half) const
+{
+  const std::int64_t face = this->Face(half);
+  if (face < 0)
+  {
+    return false;
+  }
+  const std::int32_t edge = half / 2;
+  return this->Map.Cell(edge, 0) != this->Map.Cell(edge, 1) ? this->Face(half ^ 1) != face ||
+      this->Map.Front(edge, 0).FromBehind != this->Map.Front(edge, 1).FromBehind ||
+      this->IsCut(edge, face)
+                                                            : this->IsCut(edge, face);
+}
+
+// The region lies clockwise of the way back.
+HalfEdge BorderTracer::Next(HalfEdge half) const
+{
+  const HalfEdge back = half ^ 1;
+  const std::int32_t vertex = this->Start(back);
+  const auto first = HalfEdge(this->First[vertex]);
+  const auto count = HalfEdge(this->First[vertex + 1]) - first;
+  HalfEdge place = this->PlaceOf[back] - first;
+  for (;;)
+  {
+    place = (place + count - 1) % count;
+    const HalfEdge next = this->Around[first + place];
+    if (this->Border[next] || next == back)
+    {
+      return next;
+    }
+  }
+}
+
+// Cells in regions that consist of slivers only.
+std::vector<char> BorderTracer::FindSpecks() const
+{
+  std::vector<std::int32_t> parent(this->Map.Cells.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](std::int32_t c) {
+    while (parent[c] != c)
+    {
+      c = parent[c] = parent[parent[c]];
+    }
+    return c;
+  };
+  for (HalfEdge h = 0; h < HalfEdge(this->Border.size()); h += 2)
+  {
+    if (!this->Border[h] && !this->Border[h + 1] && this->Face(h) == this->Face(h + 1))
+    {
+      parent[find(this->Map.Cell(h / 2, 0))] = find(this->Map.Cell(h / 2, 1));
+    }
+  }
+  std::vector<char> isWide(parent.size(), 0);
+  for (std::size_t c = 0; c < parent.size(); ++c)
+  {
+    isWide[find(std::int32_t(c))] |= !this->Map.IsSliver(std::int32_t(c));
+  }
+  std::vector<char> out(parent.size());
+  for (std::size_t c = 0; c < parent.size(); ++c)
+  {
+    out[c] = !isWide[find(std::int32_t(c))];
+  }
+  return out;
+}
+
+std::vector<std::vector<std::vector<HalfEdge>>> BorderTracer::Trace() const
+{
+  const std::vector<char> isSpeck = this->FindSpecks();
+  std::vector<std::vector<std::vector<HalfEdge>>> out(this->Lines.Whole.Data.Faces.size());
+  std::vector<char> done(this->Border.size(), 0);
+  for (HalfEdge first = 0; first < HalfEdge(this->Border.size()); ++first)
+  {
+    if (!this->Border[first] || done[first] || isSpeck[this->Map.Cell(first / 2, first % 2)])
+    {
+      continue;
+    }
+    std::vector<HalfEdge> loop;
+    for (HalfEdge h = first; !done[h]; h = this->Next(h))
+    {
+      done[h] = 1;
+      loop.push_back(h);
+    }
+    out[this->Face(first)].push_back(std::move(loop));
+  }
+  return out;
+}
+
+// Takes the border of one face's region to its domain.
+class RegionLifter
+{
+public:
+  RegionLifter(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
+    const FrontMap& map, double precision, std::int64_t face)
+    : Lines(lines)
+    , Image(image)
+    , Caster(caster)
+    , Map(map)
+    , Precision(precision)
+    , FaceIndex(face)
+    , Surface(lines.Whole.Data.Faces[face].Geometry)
+  {}
+
+  RegionLoop Lift(const std::vector<HalfEdge>& loop);
+
+private:
+  // A half-edge, and the line of the face that it is a part of, or the one that casts a shadow.
+  struct Step
+  {
+    HalfEdge Half;
+    const LineSource* Source = nullptr;
+    std::int64_t Curve = -1; // Of an edge's use.
+    bool IsShadow = false;
+    LinePosition From = 0.0, To = 0.0;
+  };
+
+  // A line of the face that may be what a half-edge is a part of.
+  struct Candidate
+  {
+    const LineSource* Source;
+    std::int64_t Curve;
+    Vec2 UV;
+    double Handicap;
+  };
+
+  std::int64_t UseAt(const LineSource& source, HalfEdge half) const;
+  void AddCandidates(HalfEdge half, std::vector<Candidate>& out) const;
+  Step Classify(HalfEdge half) const;
+  bool Continues(const Step& before, const Step& next) const;
+  void AddOwn(const Step& first, const Step& last, RegionLoop& out) const;
+  void AddShadow(
+    const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out);
+  void RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB, const Vec2& b, int depth,
+    std::vector<Vec2>& out) const;
+  Vec2 Seed(HalfEdge half) const;
+  RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
+  void Close(RegionLoop& loop) const;
+  Vec3 Point(const Vec2& uv) const { return Evaluate(this->Surface, uv[0], uv[1]); }
+  bool IsFlipped(HalfEdge half) const
+  {
+    // Su x Sv away from the viewer: left in the image is right in (u, v).
+    return this->Map.Front(half / 2, half % 2).FromBehind !=
+      this->Lines.Whole.Data.Faces[this->FaceIndex].Reversed;
+  }
+
+  const ViewLines& Lines;
+  const ImagePlane& Image;
+  const RayCaster& Caster;
+  const FrontMap& Map;
+  double Precision;
+  std::int64_t FaceIndex;
+  const SurfaceView& Surface;
+};
+
+// The use of an edge that has the face on the half-edge's left: of the two of a seam, the one whose loop
+// runs that way.
+std::int64_t RegionLifter::UseAt(const LineSource& source, HalfEdge half) const
+{
+  const bool forward = (half % 2 == 0) != source.Backward;
+  std::int64_t out = -1;
+  for (const EdgeUse& use : this->Lines.Uses[this->Lines.Lines[source.Line].Edge])
+  {
+    if (use.Face == this->FaceIndex)
+    {
+      const bool runs = forward != this->IsFlipped(half);
+      const bool fits = runs != this->Lines.Whole.Data.TrimCurves[use.Curve].Reversed;
+      out = fits || out < 0 ? use.Curve : out;
+    }
+  }
+  return out;
+}
+
+// Adds the parts of the face's border that run along a half-edge and end what is seen on its left.
+void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) const
+{
+  const Model& model = this->Lines.Whole.Data;
+  const auto& ends = this->Map.Snapped.Edges[half / 2];
+  for (const LineSource& source : this->Map.SourcesOf(half / 2))
+  {
+    const ViewLine& line = this->Lines.Lines[source.Line];
+    if (!(source.Shows >> (half % 2) & 1) || !IsOfFace(this->Lines, line, this->FaceIndex))
+    {
+      continue;
+    }
+    const LinePosition middle = 0.5 *
+      (this->Map.At(this->Lines.Lines, source, ends[0]) +
+        this->Map.At(this->Lines.Lines, source, ends[1]));
+    if (!line.IsEdge())
+    {
+      out.push_back({ &source, -1, ParametersAt(line, middle), line.Edge < 0 ? 1.0 : 4.0 });
+      continue;
+    }
+    RegionPiece piece;
+    piece.Curve = this->UseAt(source, half);
+    piece.To = ShareAt(line, middle);
+    out.push_back({ &source, piece.Curve, EndOfPiece(model, piece, true), 2.0 });
+  }
+}
+
+RegionLifter::Step RegionLifter::Classify(HalfEdge half) const
+{
+  Step out;
+  out.Half = half;
+  std::vector<Candidate> candidates;
+  this->AddCandidates(half, candidates);
+  if (candidates.size() > 1)
+  {
+    // The nearest in (u, v) to what is seen beside, where a line runs into a silhouette, which it touches
+    // in the image. About as near: a silhouette before an edge.
+    const Vec2 beside = this->Seed(half);
+    const Vec2 size(this->Surface.Domain(0).Length(), this->Surface.Domain(1).Length());
+    const auto rank = [&](const Candidate& one) {
+      return one.Handicap * (SameParameters + (one.UV - beside).cwiseQuotient(size).norm());
+    };
+    std::swap(candidates.front(),
+      *std::min_element(candidates.begin(), candidates.end(),
+        [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); }));
+  }
+  if (!candidates.empty())
+  {
+    out.Source = candidates.front().Source;
+    out.Curve = candidates.front().Curve;
+  }
+  out.IsShadow = candidates.empty();
+  for (const LineSource& source : this->Map.SourcesOf(half / 2))
+  {
+    // A shadow is cast by what is seen on the other side.
+    if (out.IsShadow && (!out.Source || (source.Shows != 0 && out.Source->Shows == 0)))
+    {
+      out.Source = &source;
+    }
+  }
+  const auto& ends = this->Map.Snapped.Edges[half / 2];
+  out.From = this->Map.At(this->Lines.Lines, *out.Source, ends[half % 2]);
+  out.To = this->Map.At(this->Lines.Lines, *out.Source, ends[1 - half % 2]);
+  return out;
+}
+
+bool RegionLifter::Continues(const Step& before, const Step& next) const
+{
+  if (before.IsShadow || next.IsShadow)
+  {
+    return before.IsShadow && next.IsShadow;
+  }
+  const bool forward = (before.Half % 2 == 0) != before.Source->Backward;
+  const bool nextForward = (next.Half % 2 == 0) != next.Source->Backward;
+  return before.Source->Line == next.Source->Line && before.Curve == next.Curve &&
+    forward == nextForward && std::abs(before.To - next.From) < 1.0;
+}
+
+void RegionLifter::AddOwn(const Step& first, const Step& last, RegionLoop& out) const
+{
+  const ViewLine& line = this->Lines.Lines[first.Source->Line];
+  RegionPiece piece;
+  piece.Curve = first.Curve;
+  if (piece.Curve >= 0)
+  {
+    piece.From = ShareAt(line, first.From);
+    piece.To = ShareAt(line, last.To);
+    if (piece.From != piece.To)
+    {
+      out.push_back(piece);
+    }
+    return;
+  }
+  piece.Polyline.push_back(ParametersAt(line, first.From));
+  if (first.From < last.To)
+  {
+    for (auto k = std::size_t(first.From) + 1; double(k) < last.To; ++k)
+    {
+      piece.Polyline.push_back(line.Points[k].UV);
+    }
+  }
+  else
+  {
+    for (auto k = std::int64_t(std::ceil(first.From)) - 1; double(k) > last.To; --k)
+    {
+      piece.Polyline.push_back(line.Points[k].UV);
+    }
+  }
+  piece.Polyline.push_back(ParametersAt(line, last.To));
+  out.push_back(std::move(piece));
+}
+
+// A place on the face's sheet beside a half-edge.
+Vec2 RegionLifter::Seed(HalfEdge half) const
+{
+  const FrontHit hit = LookAt(this->Caster, this->Image, this->Map.Beside(half / 2, half % 2));
+  return hit.Face == this->FaceIndex ? hit.UV : this->Map.Front(half / 2, half % 2).UV;
+}
+
+// Adds points between two of a shadow till the lifted middle is on the chord.
+void RegionLifter::RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB,
+  const Vec2& b, int depth, std::vector<Vec2>& out) const
+{
+  if (depth == 0)
+  {
+    return;
+  }
+  const Vec2 image = 0.5 * (imageA + imageB);
+  const Vec2 straight = 0.5 * (a + b);
+  Vec2 middle = straight;
+  if (!this->Image.Lift(this->Surface, image, this->Precision, middle) ||
+    (this->Point(middle) - this->Point(straight)).norm() <= this->Precision)
+  {
+    return;
+  }
+  this->RefineShadow(imageA, a, image, middle, depth - 1, out);
+  out.push_back(middle);
+  this->RefineShadow(image, middle, imageB, b, depth - 1, out);
+}
+
+void RegionLifter::AddShadow(
+  const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out)
+{
+  const auto image = [&](const Step& step, LinePosition at) {
+    return ImageAt(this->Lines.Lines[step.Source->Line], at);
+  };
+  RegionPiece piece;
+  Vec2 uv = this->Seed(steps[begin].Half);
+  Vec2 at = image(steps[begin], steps[begin].From);
+  this->Image.Lift(this->Surface, at, this->Precision, uv);
+  piece.Polyline.push_back(uv);
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    const Vec2 next = image(steps[k], steps[k].To);
+    Vec2 nextUV = uv;
+    if (!this->Image.Lift(this->Surface, next, this->Precision, nextUV))
+    {
+      nextUV = this->Seed(steps[k].Half);
+      this->Image.Lift(this->Surface, next, this->Precision, nextUV);
+    }
+    this->RefineShadow(at, uv, next, nextUV, MaxShadowDepth, piece.Polyline);
+    piece.Polyline.push_back(nextUV);
+    uv = nextUV;
+    at = next;
+  }
+  out.push_back(std::move(piece));
+}
+
+// From one end of a pole or an edge that is seen end-on to the other: a trim curve if one runs there,
+// else straight.
+RegionPiece RegionLifter::Bridge(const Vec2& from, const Vec2& to) const
+{
+  const Model& model = this->Lines.Whole.Data;
+  const Face& face = model.Faces[this->FaceIndex];
+  const Vec2 size(this->Surface.Domain(0).Length(), this->Surface.Domain(1).Length());
+  const auto isSame = [&](const Vec2& a, const Vec2& b) {
+    return (a - b).cwiseQuotient(size).norm() < SameParameters;
+  };
+  RegionPiece out;
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const TrimLoop& loop = model.Loops[l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      out.Curve = c;
+      const Vec2 first = EndOfPiece(model, out, false);
+      const Vec2 last = EndOfPiece(model, out, true);
+      if (isSame(first, from) && isSame(last, to) && !isSame(first, last))
+      {
+        return out;
+      }
+      if (isSame(first, to) && isSame(last, from) && !isSame(first, last))
+      {
+        std::swap(out.From, out.To);
+        return out;
+      }
+    }
+  }
+  out.Curve = -1;
+  out.Polyline = { from, to };
+  return out;
+}
+
+// Pieces that do not quite meet: a polyline is moved to the other piece's end; if there is none, or
+// the gap is wide (along a pole, or an edge that is seen end-on), a straight piece closes it.
+void RegionLifter::Close(RegionLoop& loop) const
+{
+  RegionLoop out;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+  {
+    RegionPiece& piece = loop[k];
+    RegionPiece& next = loop[(k + 1) % loop.size()];
+    const Vec2 end = EndOfPiece(this->Lines.Whole.Data, piece, true);
+    const Vec2 start = EndOfPiece(this->Lines.Whole.Data, next, false);
+    const bool isNear = (this->Point(end) - this->Point(start)).norm() <= 8.0 * this->Precision &&
+      std::abs(end[0] - start[0]) < 0.25 * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) < 0.25 * this->Surface.Domain(1).Length();
+    bool joined = end == start;
+    if (!joined && isNear && next.Curve < 0 && next.Polyline.size() > 1)
+    {
+      next.Polyline.front() = end;
+      joined = true;
+    }
+    else if (!joined && isNear && piece.Curve < 0)
+    {
+      piece.Polyline.back() = start;
+      joined = true;
+    }
+    out.push_back(piece);
+    if (!joined)
+    {
+      out.push_back(this->Bridge(end, start));
+    }
+  }
+  // What the first piece became when the last one was joined to it.
+  if (!loop.empty())
+  {
+    out.front() = loop.front();
+  }
+  loop = std::move(out);
+}
+
+RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
+{
+  std::vector<Step> steps;
+  for (const HalfEdge half : loop)
+  {
+    steps.push_back(this->Classify(half));
+  }
+  // Start where a piece starts.
+  for (std::size_t k = 1; k < steps.size(); ++k)
+  {
+    if (!this->Continues(steps[k - 1], steps[k]))
+    {
+      std::rotate(steps.begin(), steps.begin() + std::ptrdiff_t(k), steps.end());
+      break;
+    }
+  }
+  RegionLoop out;
+  for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
+  {
+    for (last = first + 1; last < steps.size() && this->Continues(steps[last - 1], steps[last]);)
+    {
+      ++last;
+    }
+    if (steps[first].IsShadow)
+    {
+      this->AddShadow(steps, first, last, out);
+    }
+    else
+    {
+      this->AddOwn(steps[first], steps[last - 1], out);
+    }
+  }
+  this->Close(out);
+  if (!loop.empty() && this->IsFlipped(loop.front()))
+  {
+    std::reverse(out.begin(), out.end());
+    for (RegionPiece& piece : out)
+    {
+      std::swap(piece.From, piece.To);
+      std::reverse(piece.Polyline.begin(), piece.Polyline.end());
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
+{
+  if (piece.Curve < 0)
+  {
+    return last ? piece.Polyline.back() : piece.Polyline.front();
+  }
+  const CurveView<2>& curve = model.TrimCurves[piece.Curve].Geometry;
+  const Interval domain = curve.Domain();
+  const double share = last ? piece.To : piece.From;
+  return Evaluate(curve, share == 1.0 ? domain.Max : domain.Min + share * domain.Length());
+}
+
+std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const ImagePlane& image,
+  const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,
+  const ParallelFor& parallel)
+{
+  const std::vector<std::vector<std::vector<HalfEdge>>> loops =
+    BorderTracer(lines, map, bothSides).Trace();
+  std::vector<std::vector<RegionLoop>> out(loops.size());
+  parallel(0, std::int64_t(loops.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f)
+    {
+      RegionLifter lifter(lines, image, caster, map, precision, f);
+      for (const std::vector<HalfEdge>& loop : loops[f])
+      {
+        out[f].push_back(lifter.Lift(loop));
+      }
+    }
+  });
+  return out;
+}
+
+} // namespace nurbs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file RegionLoops.h
+/// @brief The borders of visible regions in the (u, v) domains of their faces.
+///
+/// A region is the union of the cells of a FrontMap where its face is in front. Its border is traced
+/// in the image, where it is closed by construction, and taken back to the surface piece by piece:
+/// parts of the face's own trim curves and silhouettes as they are, shadows of what is in front by
+/// line-surface intersection (Ruan, Zhang, Yong 2006, section 4), with points added until chords are
+/// within the precision.
+#pragma once
+
+#include "FrontMap.h"
+
+namespace nurbs
+{
+
+/// A directed part of a region's border.
+struct RegionPiece
+{
+  std::int64_t Curve = -1;     ///< Trim curve of the completed model; -1: a polyline.
+  double From = 0.0, To = 1.0; ///< Shares of the curve's domain; From > To: against it.
+  std::vector<Vec2> Polyline;  ///< (u, v).
+};
+
+/// Closed: a piece starts where the one before ends. The region lies on the left in the (u, v) plane.
+using RegionLoop = std::vector<RegionPiece>;
+
+/// (u, v) at a piece's start or end.
+Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last);
+
+/// The loops of all faces, one list a face. `precision`: largest distance of chords of shadows from the
+/// exact curve on the surface. `bothSides`: what is seen from behind is visible, too.
+std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const ImagePlane& image,
+  const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,
+  const ParallelFor& parallel);
+
+/// The borders of what the regions leave of the faces.
+std::vector<std::vector<RegionLoop>> ComplementRegions(
+  const ViewLines& lines, const std::vector<std::vector<RegionLoop>>& regions);
+
+/// Cuts pieces of trim curves wherever a piece of another use of the same edge ends, so that faces
+/// share whole edges.
+void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions);
+
+} // namespace nurbs

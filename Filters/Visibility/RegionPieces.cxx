@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is done with the pieces of regions' borders once they are traced.
+#include "RegionLoops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace nurbs
+{
+
+namespace
+{
+
+// Shares of a trim curve that are nearer to each other are the same.
+constexpr double SameShare = 1e-12;
+
+// The parts of [0, 1] that are left.
+std::vector<Interval> Gaps(std::vector<Interval> covered)
+{
+  std::sort(covered.begin(), covered.end(),
+    [](const Interval& a, const Interval& b) { return a.Min < b.Min; });
+  std::vector<Interval> out;
+  double reached = 0.0;
+  for (const Interval& part : covered)
+  {
+    if (part.Min > reached + SameShare)
+    {
+      out.push_back({ reached, part.Min });
+    }
+    reached = std::max(reached, part.Max);
+  }
+  if (reached < 1.0 - SameShare)
+  {
+    out.push_back({ reached, 1.0 });
+  }
+  return out;
+}
+
+// Makes loops of pieces: each goes on in the one that starts nearest to its end, or is closed.
+std::vector<RegionLoop> Link(const Model& model, const Vec2& size, std::vector<RegionPiece> pieces)
+{
+  std::vector<RegionLoop> out;
+  std::vector<char> used(pieces.size(), 0);
+  for (std::size_t first = 0; first < pieces.size(); ++first)
+  {
+    if (used[first])
+    {
+      continue;
+    }
+    used[first] = 1;
+    RegionLoop loop{ pieces[first] };
+    const Vec2 start = EndOfPiece(model, pieces[first], false);
+    for (;;)
+    {
+      const Vec2 end = EndOfPiece(model, loop.back(), true);
+      double least = (start - end).cwiseQuotient(size).squaredNorm();
+      std::size_t next = pieces.size();
+      for (std::size_t k = first + 1; k < pieces.size(); ++k)
+      {
+        const double distance = used[k]
+          ? 1e300
+          : (EndOfPiece(model, pieces[k], false) - end).cwiseQuotient(size).squaredNorm();
+        if (distance < least)
+        {
+          least = distance;
+          next = k;
+        }
+      }
+      const Vec2 to = next < pieces.size() ? EndOfPiece(model, pieces[next], false) : start;
+      if (to != end)
+      {
+        RegionPiece bridge;
+        bridge.Polyline = { end, to };
+        loop.push_back(std::move(bridge));
+      }
+      if (next == pieces.size())
+      {
+        break;
+      }
+      used[next] = 1;
+      loop.push_back(pieces[next]);
+    }
+    out.push_back(std::move(loop));
+  }
+  return out;
+}
+
+std::vector<RegionLoop> Complement(
+  const Model& model, std::int64_t faceIndex, const std::vector<RegionLoop>& region)
+{
+  const Face& face = model.Faces[faceIndex];
+  std::map<std::int64_t, std::vector<Interval>> covered;
+  std::vector<RegionPiece> pieces;
+  for (const RegionLoop& loop : region)
+  {
+    for (const RegionPiece& piece : loop)
+    {
+      if (piece.Curve >= 0)
+      {
+        covered[piece.Curve].push_back(
+          { std::min(piece.From, piece.To), std::max(piece.From, piece.To) });
+      }
+      else
+      {
+        pieces.push_back(piece);
+        std::reverse(pieces.back().Polyline.begin(), pieces.back().Polyline.end());
+      }
+    }
+  }
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    const TrimLoop& loop = model.Loops[l];
+    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+    {
+      for (const Interval& gap : Gaps(covered[c]))
+      {
+        RegionPiece piece;
+        piece.Curve = c;
+        piece.From = model.TrimCurves[c].Reversed ? gap.Max : gap.Min;
+        piece.To = model.TrimCurves[c].Reversed ? gap.Min : gap.Max;
+        pieces.push_back(piece);
+      }
+    }
+  }
+  const Vec2 size(face.Geometry.Domain(0).Length(), face.Geometry.Domain(1).Length());
+  return Link(model, size, std::move(pieces));
+}
+
+} // namespace
+
+std::vector<std::vector<RegionLoop>> ComplementRegions(
+  const ViewLines& lines, const std::vector<std::vector<RegionLoop>>& regions)
+{
+  std::vector<std::vector<RegionLoop>> out(regions.size());
+  for (std::size_t f = 0; f < regions.size(); ++f)
+  {
+    out[f] = Complement(lines.Whole.Data, std::int64_t(f), regions[f]);
+  }
+  return out;
+}
+
+void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions)
+{
+  const Model& model = lines.Whole.Data;
+  std::map<std::int64_t, std::vector<double>> ends;
+  const auto forPieces = [&](const auto& visit) {
+    for (std::vector<RegionLoop>& region : regions)
+    {
+      for (RegionLoop& loop : region)
+      {
+        visit(loop);
+      }
+    }
+  };
+  forPieces([&](const RegionLoop& loop) {
+    for (const RegionPiece& piece : loop)
+    {
+      if (piece.Curve >= 0)
+      {
+        std::vector<double>& at = ends[model.TrimCurves[piece.Curve].Edge];
+        at.insert(at.end(), { piece.From, piece.To });
+      }
+    }
+  });
+  for (auto& [edge, at] : ends)
+  {
+    std::sort(at.begin(), at.end());
+    at.erase(
+      std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < SameShare; }),
+      at.end());
+  }
+  forPieces([&](RegionLoop& loop) {
+    RegionLoop out;
+    for (RegionPiece piece : loop)
+    {
+      if (piece.Curve >= 0)
+      {
+        const std::vector<double>& at = ends[model.TrimCurves[piece.Curve].Edge];
+        std::vector<double> cuts;
+        for (const double share : at)
+        {
+          if (share > std::min(piece.From, piece.To) + SameShare &&
+            share < std::max(piece.From, piece.To) - SameShare)
+          {
+            cuts.push_back(share);
+          }
+        }
+        if (piece.From > piece.To)
+        {
+          std::reverse(cuts.begin(), cuts.end());
+        }
+        for (const double share : cuts)
+        {
+          RegionPiece part = piece;
+          part.To = piece.From = share;
+          out.push_back(part);
+        }
+      }
+      out.push_back(std::move(piece));
+    }
+    loop = std::move(out);
+  });
+}
+
+} // namespace nurbs

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VisibleRegions.h"
+
+#include "RegionArea.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace nurbs
+{
+
+namespace
+{
+
+// Chords of lines, and pixels, as shares of the precision: together they are within it.
+constexpr double ChordShare = 0.25;
+constexpr double PixelShare = 0.5;
+// Shorter pieces of a line, in pixels, go with their neighbours.
+constexpr double ShortestPiece = 2.0;
+// Shares of the whole that progress counts for the steps.
+constexpr double LinesDone = 0.2;
+constexpr double MapDone = 0.8;
+
+// A part of a line between two positions.
+struct Piece
+{
+  LinePosition From, To;
+  bool Visible;
+};
+
+// All steps of one call.
+class RegionMaker
+{
+public:
+  RegionMaker(const Model& model, const std::vector<std::string>& faceErrors,
+    const VisibleRegionOptions& options)
+    : Source(model)
+    , FaceErrors(faceErrors)
+    , Options(options)
+    , Caster(model, options.Parallel)
+    , Image(options.View, options.Up, this->Bounds())
+  {}
+
+  VisibleRegions Run();
+
+private:
+  Box3 Bounds() const
+  {
+    const Box3& box = this->Caster.Bounds();
+    return box.isEmpty() ? Box3(Vec3::Zero(), Vec3::Zero()) : box;
+  }
+  bool Report(double done) const { return !this->Options.Progress || this->Options.Progress(done); }
+  bool MakeLines();
+  bool MakeMap();
+  void FillFaces();
+  std::vector<Piece> PiecesOf(std::int64_t line) const;
+  void DrawLine(std::int64_t line, std::vector<DrawnLine>& out) const;
+  void DrawLines();
+
+  const Model& Source;
+  const std::vector<std::string>& FaceErrors;
+  const VisibleRegionOptions& Options;
+  RayCaster Caster;
+  ImagePlane Image;
+  FrontMap Map;
+  VisibleRegions Out;
+};
+
+bool RegionMaker::MakeLines()
+{
+  SilhouetteOptions options;
+  options.View = this->Options.View;
+  options.Precision = ChordShare * this->Options.Precision;
+  options.FeatureAngle = this->Options.FeatureAngle;
+  options.MaximumCells = this->Options.MaximumCells;
+  options.Parts = this->Options.Parts;
+  options.Parallel = this->Options.Parallel;
+  options.Progress = [&](double done) { return this->Report(LinesDone * done); };
+  this->Out.Lines = MakeViewLines(this->Source, this->FaceErrors, options, this->Image);
+  return !this->Out.Lines.Aborted;
+}
+
+bool RegionMaker::MakeMap()
+{
+  const auto make = [&]() {
+    this->Map = MakeFrontMap(this->Out.Lines, LinesInView(this->Out.Lines), this->Image,
+      this->Caster, PixelShare * this->Options.Precision, this->Options.Parallel,
+      [&](double done) { return this->Report(LinesDone + (MapDone - LinesDone) * done); });
+    return !this->Map.Cells.empty();
+  };
+  if (!make())
+  {
+    return false;
+  }
+  // A shell that is inside out, or is looked into through a gap: nothing of it is behind.
+  const bool isInsideOut =
+    std::any_of(this->Map.Cells.begin(), this->Map.Cells.end(), [&](const FrontHit& front) {
+      return front.Face >= 0 && front.FromBehind && this->Out.Lines.IsShell[front.Face];
+    });
+  const bool hasBehind = std::any_of(this->Out.Lines.Lines.begin(), this->Out.Lines.Lines.end(),
+    [](const ViewLine& line) { return line.IsBehind; });
+  if (isInsideOut && hasBehind)
+  {
+    for (ViewLine& line : this->Out.Lines.Lines)
+    {
+      line.IsBehind = false;
+    }
+    if (!make())
+    {
+      return false;
+    }
+  }
+  if (getenv("DBG")) for (int c = 0; c < this->Map.Plane.CellCount; ++c) { auto& p=this->Map.Plane.Samples[this->Map.Plane.SampleStart[c]]; Vec2 q=this->Map.ToImage(p.Point); printf("cell %d area %g radius %g at %g %g face %ld behind %d\n",c,this->Map.Plane.Areas[c],p.Radius,q[0],q[1],(long)this->Map.Cells[c].Face,this->Map.Cells[c].FromBehind);}
+  AbsorbSlivers(this->Out.Lines, this->Map);
+  if (getenv("DBG")) for (int c = 0; c < this->Map.Plane.CellCount; ++c) printf("cell %d face %ld\n",c,(long)this->Map.Cells[c].Face);
+  FindShownLines(this->Out.Lines, this->Image, this->Caster, this->Map, this->Options.Parallel);
+  if (getenv("DBG")) for (size_t e=0;e<this->Map.Snapped.Edges.size();++e) { Vec2 q=this->Map.VertexImage(this->Map.Snapped.Edges[e][0]); printf("edge %zu (%g %g) cells %d %d:",e,q[0],q[1],this->Map.Cell(e,0),this->Map.Cell(e,1)); for(auto&x:this->Map.SourcesOf(e)) printf(" line %d seg %g back %d shows %d",x.Line,this->Map.Segments[x.Segment].From,x.Backward,x.Shows); printf("\n"); }
+  return true;
+}
+
+// True if the loops are all trim curves, whole, and nothing else.
+bool IsWhole(const Model& model, std::int64_t index, const std::vector<RegionLoop>& loops)
+{
+  std::int64_t curves = 0;
+  for (const RegionLoop& loop : loops)
+  {
+    for (const RegionPiece& piece : loop)
+    {
+      if (piece.Curve < 0 || std::abs(piece.To - piece.From) != 1.0)
+      {
+        return false;
+      }
+      ++curves;
+    }
+  }
+  const Face& face = model.Faces[index];
+  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  {
+    curves -= model.Loops[l].CurveCount;
+  }
+  return curves == 0 && !loops.empty();
+}
+
+void RegionMaker::FillFaces()
+{
+  const ViewLines& lines = this->Out.Lines;
+  const Model& model = lines.Whole.Data;
+  std::vector<std::vector<RegionLoop>> visible = TraceRegions(lines, this->Image, this->Caster,
+    this->Map, this->Options.Precision, this->Options.BothSides, this->Options.Parallel);
+  this->Out.Faces.resize(visible.size());
+  this->Options.Parallel(
+    0, std::int64_t(visible.size()), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t f = begin; f < end; ++f)
+      {
+        FaceRegion& face = this->Out.Faces[f];
+        face.IsWhole = IsWhole(model, f, visible[f]);
+        if (!visible[f].empty())
+        {
+          face.Area = RegionArea(model, f, WholeRegion(model, f));
+          face.VisibleArea = face.IsWhole ? face.Area : RegionArea(model, f, visible[f]);
+        }
+      }
+    });
+  std::vector<std::vector<RegionLoop>> regions =
+    this->Options.HiddenRegions ? ComplementRegions(lines, visible) : std::move(visible);
+  CutAtSharedEnds(lines, regions);
+  for (std::size_t f = 0; f < regions.size(); ++f)
+  {
+    this->Out.Faces[f].Loops = std::move(regions[f]);
+  }
+}
+
+// What of a line is visible, in order.
+std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
+{
+  const ViewLine& line = this->Out.Lines.Lines[index];
+  const SnappedSegments& snapped = this->Map.Snapped;
+  std::vector<Piece> out;
+  double reached = 0.0;
+  const auto add = [&](LinePosition to, bool visible) {
+    if (to > reached && !out.empty() && out.back().Visible == visible)
+    {
+      out.back().To = to;
+    }
+    else if (to > reached)
+    {
+      out.push_back({ reached, to, visible });
+    }
+    reached = std::max(reached, to);
+  };
+  for (std::int64_t s = this->Map.FirstSegment[index]; s < this->Map.FirstSegment[index + 1]; ++s)
+  {
+    const LinePart& segment = this->Map.Segments[s];
+    add(segment.From, false);
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
+    {
+      const bool backward = snapped.Path[p] < 0;
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      const ArrayView<LineSource> sources = this->Map.SourcesOf(edge);
+      const LineSource& source = *std::find_if(sources.begin(), sources.end(),
+        [&](const LineSource& one) { return one.Segment == std::int32_t(s); });
+      add(p + 1 == snapped.PathStart[s + 1]
+          ? segment.To
+          : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]),
+        source.Shows != 0);
+    }
+  }
+  // What is in no part, or too short in the image to have a path.
+  add(double(line.Points.size() - 1), false);
+  return out;
+}
+
+// Drops pieces that are too short to be told from nothing.
+void DropShortPieces(const ViewLine& line, double shortest, std::vector<Piece>& pieces)
+{
+  const auto length = [&](const Piece& piece) {
+    double sum = 0.0;
+    Vec2 before = ImageAt(line, piece.From);
+    for (auto k = std::size_t(piece.From) + 1; double(k) < piece.To && sum < shortest; ++k)
+    {
+      sum += (line.Image[k] - before).norm();
+      before = line.Image[k];
+    }
+    return sum + (ImageAt(line, piece.To) - before).norm();
+  };
+  std::vector<Piece> kept;
+  for (Piece piece : pieces)
+  {
+    const bool isShort = pieces.size() > 1 && length(piece) < shortest;
+    if (!kept.empty() && (isShort || kept.back().Visible == piece.Visible))
+    {
+      kept.back().To = piece.To;
+    }
+    else if (!isShort || piece.To == pieces.back().To)
+    {
+      piece.From = kept.empty() ? 0.0 : piece.From;
+      kept.push_back(piece);
+    }
+  }
+  pieces = std::move(kept);
+}
+
+void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) const
+{
+  const ViewLine& line = this->Out.Lines.Lines[index];
+  std::vector<Piece> pieces = line.IsBehind
+    ? std::vector<Piece>{ { 0.0, double(line.Points.size() - 1), false } }
+    : this->PiecesOf(index);
+  DropShortPieces(line, ShortestPiece * this->Map.Pixel, pieces);
+  for (const Piece& piece : pieces)
+  {
+    DrawnLine drawn;
+    drawn.Kind = line.Kind;
+    drawn.Visible = piece.Visible;
+    drawn.Face = line.Face;
+    drawn.Edge = line.Edge < this->Out.Lines.Whole.KnownEdges ? line.Edge : -1;
+    const bool startsAtPoint = piece.From == std::floor(piece.From);
+    drawn.Points.push_back(startsAtPoint ? line.Points[std::size_t(piece.From)] : ExactPointAt(this->Out.Lines, line, piece.From));
+    for (auto k = std::size_t(piece.From) + 1; double(k) < piece.To; ++k)
+    {
+      drawn.Points.push_back(line.Points[k]);
+    }
+    const bool endsAtPoint = piece.To == std::floor(piece.To);
+    drawn.Points.push_back(endsAtPoint ? line.Points[std::size_t(piece.To)] : ExactPointAt(this->Out.Lines, line, piece.To));
+    out.push_back(std::move(drawn));
+  }
+}
+
+void RegionMaker::DrawLines()
+{
+  for (std::size_t l = 0; l < this->Out.Lines.Lines.size(); ++l)
+  {
+    this->DrawLine(std::int64_t(l), this->Out.Drawn);
+  }
+}
+
+VisibleRegions RegionMaker::Run()
+{
+  if (!this->MakeLines() || !this->MakeMap())
+  {
+    this->Out = VisibleRegions();
+    this->Out.Aborted = true;
+    return std::move(this->Out);
+  }
+  this->Out.Image = this->Image;
+  this->Out.Piercing = this->Map.Piercing;
+  this->Out.Cells = this->Map.Plane.CellCount;
+  this->Out.Segments = std::int64_t(this->Map.Snapped.Edges.size());
+  this->FillFaces();
+  this->DrawLines();
+  this->Report(1.0);
+  return std::move(this->Out);
+}
+
+} // namespace
+
+VisibleRegions MakeVisibleRegions(const Model& model, const std::vector<std::string>& faceErrors,
+  const VisibleRegionOptions& options)
+{
+  if (!(options.Precision > 0.0) || !std::isfinite(options.Precision))
+  {
+    throw Error("The precision must be positive, but is " + std::to_string(options.Precision));
+  }
+  return RegionMaker(model, faceErrors, options).Run();
+}
+
+} // namespace nurbs

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSVisibleRegions.h"
+
+#include "vtkCamera.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
+#include "vtkNURBSRegionOutput.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+vtkStandardNewMacro(vtkNURBSVisibleRegions);
+
+namespace
+{
+
+constexpr int MaxNamed = 8; // in the warnings
+
+double Now()
+{
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+struct vtkNURBSVisibleRegions::Work
+{
+  vtkNURBSModelPool Pool;
+  nurbs::VisibleRegionOptions Options;
+  nurbs::VisibleRegions Result;
+};
+
+vtkNURBSVisibleRegions::vtkNURBSVisibleRegions()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkNURBSVisibleRegions::~vtkNURBSVisibleRegions() = default;
+
+int vtkNURBSVisibleRegions::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+int vtkNURBSVisibleRegions::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 2, 1) ? 1 : 0;
+}
+
+vtkPolyData* vtkNURBSVisibleRegions::GetLines()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+void vtkNURBSVisibleRegions::Make(Work& work)
+{
+  nurbs::VisibleRegionOptions& options = work.Options;
+  const vtkNURBSModelPool& pool = work.Pool;
+  const double* up = this->GetCamera() ? this->GetCamera()->GetViewUp() : this->ViewUp;
+  options.View = this->MakeViewer();
+  options.Up = nurbs::Vec3(up[0], up[1], up[2]);
+  options.Precision = this->AbsolutePrecision(pool);
+  options.FeatureAngle = vtkMath::RadiansFromDegrees(this->GetFeatureAngle());
+  options.HiddenRegions = this->Region == HIDDEN_REGION;
+  options.BothSides = this->BothSides;
+  options.Clustering = this->Clustering;
+  options.Parts = PartsOf(pool);
+  options.Parallel = vtkNURBSParallelFor;
+  vtkNURBSRunWithProgress(
+    this, IsQuick(pool), 0.0, 0.9, [&](const std::function<bool(double)>& progress) {
+      options.Progress = progress;
+      work.Result = nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options);
+    });
+}
+
+void vtkNURBSVisibleRegions::Summarize(const Work& work)
+{
+  std::ostringstream failed;
+  const auto faceName = [&](std::int64_t face) {
+    for (const vtkNURBSModelPool::Leaf& leaf : work.Pool.Leaves)
+    {
+      if (face >= std::int64_t(leaf.FirstFace) && face < std::int64_t(leaf.LastFace))
+      {
+        return std::to_string(
+          vtkNURBSModel::GetFaceId(leaf.Grid, vtkIdType(face - std::int64_t(leaf.FirstFace))));
+      }
+    }
+    return std::string("the background");
+  };
+  for (std::size_t f = 0; f < work.Result.Faces.size(); ++f)
+  {
+    const nurbs::FaceRegion& face = work.Result.Faces[f];
+    const nurbs::FaceSilhouette& lines = work.Result.Lines.Faces[f];
+    ++this->NumberOfFaces;
+    this->VisibleArea += face.VisibleArea;
+    if (lines.Status >= nurbs::SilhouetteStatus::Capped)
+    {
+      if (++this->NumberOfFailedFaces <= MaxNamed)
+      {
+        failed << "\n  face " << faceName(std::int64_t(f)) << ": " << lines.Message;
+      }
+    }
+    this->NumberOfVisibleFaces += face.IsWhole;
+    this->NumberOfPartialFaces += !face.IsWhole && face.VisibleArea > 0.0;
+    this->NumberOfHiddenFaces += !(face.VisibleArea > 0.0);
+  }
+  this->NumberOfCells = vtkIdType(work.Result.Cells);
+  this->NumberOfPiercingPairs = vtkIdType(work.Result.Piercing.size());
+  if (this->NumberOfFailedFaces > 0)
+  {
+    vtkWarningMacro(<< this->NumberOfFailedFaces << " of " << this->NumberOfFaces
+                    << " faces have no silhouettes or gaps in them:" << failed.str());
+  }
+  if (!work.Result.Piercing.empty())
+  {
+    std::ostringstream named;
+    for (std::size_t k = 0; k < work.Result.Piercing.size() && k < MaxNamed; ++k)
+    {
+      const auto& pair = work.Result.Piercing[k];
+      named << "\n  " << faceName(pair[0]) << " and " << faceName(pair[1]);
+    }
+    vtkWarningMacro(<< work.Result.Piercing.size()
+                    << " pairs of faces pierce or touch each other where they are seen; the border "
+                       "between them is not exact there:"
+                    << named.str());
+  }
+}
+
+void vtkNURBSVisibleRegions::ClearResults()
+{
+  this->NumberOfFaces = this->NumberOfVisibleFaces = this->NumberOfPartialFaces = 0;
+  this->NumberOfHiddenFaces = this->NumberOfFailedFaces = 0;
+  this->NumberOfLines = this->NumberOfVisibleLines = 0;
+  this->NumberOfCells = this->NumberOfPiercingPairs = 0;
+  this->VisibleArea = this->Seconds = 0.0;
+}
+
+int vtkNURBSVisibleRegions::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const double start = Now();
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* models = vtkDataObject::GetData(outputs, 0);
+  vtkDataObject* drawings = vtkDataObject::GetData(outputs, 1);
+  vtkNURBSModelPool::CopyTree(input, models);
+  vtkNURBSModelPool::CopyTree(input, drawings);
+  const vtkNURBSParallelScope parallel;
+  Work work;
+  try
+  {
+    std::string problem = this->CheckOptions();
+    problem = problem.empty() ? work.Pool.Collect(input) : problem;
+    if (!problem.empty())
+    {
+      throw nurbs::Error(problem);
+    }
+    this->Make(work);
+  }
+  catch (const std::exception& problem)
+  {
+    vtkErrorMacro(<< problem.what());
+    this->SetErrorCode(vtkErrorCode::UserError);
+    return 0;
+  }
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (work.Result.Aborted)
+  {
+    return 1;
+  }
+  this->Summarize(work);
+  vtkNURBSRegionOutput::LineChoice choice;
+  choice.Kinds[0] = this->GetSilhouettes();
+  choice.Kinds[1] = this->GetBoundaryEdges();
+  choice.Kinds[2] = this->GetSharpEdges();
+  choice.Kinds[3] = this->GetSmoothEdges();
+  choice.Hidden = this->HiddenLines;
+  choice.Project = this->ProjectLines;
+  const auto grids = work.Pool.MakeLeaves<vtkUnstructuredGrid>(input, models);
+  const auto lines = work.Pool.MakeLeaves<vtkPolyData>(input, drawings);
+  for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
+  {
+    vtkNURBSRegionOutput::FillModel(work.Result, work.Pool.Leaves[k], grids[k]);
+    vtkNURBSRegionOutput::FillLines(work.Result, work.Pool.Leaves[k], choice, lines[k]);
+    this->NumberOfLines += lines[k]->GetNumberOfLines();
+  }
+  this->NumberOfVisibleLines = std::count_if(work.Result.Drawn.begin(), work.Result.Drawn.end(),
+    [&](const nurbs::DrawnLine& line) { return line.Visible && choice.Kinds[int(line.Kind)]; });
+  this->Seconds = Now() - start;
+  this->UpdateProgress(1.0);
+  return 1;
+}
+
+void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ViewUp: " << this->ViewUp[0] << " " << this->ViewUp[1] << " " << this->ViewUp[2]
+     << "\n";
+  os << indent << "Region: " << (this->Region == HIDDEN_REGION ? "hidden" : "visible") << "\n";
+  os << indent << "BothSides: " << this->BothSides << "\n";
+  os << indent << "HiddenLines: " << this->HiddenLines << "\n";
+  os << indent << "ProjectLines: " << this->ProjectLines << "\n";
+  os << indent << "Clustering: " << this->Clustering << "\n";
+  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
+  os << indent << "NumberOfVisibleFaces: " << this->NumberOfVisibleFaces << "\n";
+  os << indent << "NumberOfPartialFaces: " << this->NumberOfPartialFaces << "\n";
+  os << indent << "NumberOfHiddenFaces: " << this->NumberOfHiddenFaces << "\n";
+  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "VisibleArea: " << this->VisibleArea << "\n";
+  os << indent << "NumberOfLines: " << this->NumberOfLines << "\n";
+  os << indent << "NumberOfVisibleLines: " << this->NumberOfVisibleLines << "\n";
+  os << indent << "NumberOfCells: " << this->NumberOfCells << "\n";
+  os << indent << "NumberOfPiercingPairs: " << this->NumberOfPiercingPairs << "\n";
+  os << indent << "Seconds: " << this->Seconds << "\n";
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Visible regions against lines of sight over the whole image, and areas against closed forms.
+#include "Shapes.h"
+#include "nurbsModelShapes.h"
+#include "nurbsRegionReference.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace reference;
+
+constexpr double PI = 3.141592653589793238462643383280;
+
+struct Case
+{
+  nurbs::ModelBuilder Builder;
+  nurbs::AssembledModel Made;
+  VisibleRegions Result;
+
+  void Run(const Viewer& viewer, double precision)
+  {
+    this->Made = nurbs::AssembleModel(this->Builder.Arrays());
+    VisibleRegionOptions options;
+    options.View = viewer;
+    options.Precision = precision;
+    this->Result = nurbs::MakeVisibleRegions(this->Made.Model, this->Made.FaceErrors, options);
+  }
+  double VisibleArea() const
+  {
+    double sum = 0.0;
+    for (const nurbs::FaceRegion& face : this->Result.Faces)
+    {
+      sum += face.VisibleArea;
+    }
+    return sum;
+  }
+  void Check(double precision, int n) const
+  {
+    const RegionCheck check = CheckRegions(this->Made.Model, this->Result, precision, n);
+    EXPECT_GT(check.Fronts, n * n / 20);
+    EXPECT_EQ(check.Wrong, 0) << "first at " << check.FirstWrong.transpose() << " face "
+                              << check.WrongFace << (check.WrongIsFront ? " front" : " behind");
+    EXPECT_LT(check.Near, n * n / 50);
+  }
+};
+
+const Viewer Views[] = { Direction(0, 0, 1), Direction(0, -1, 0), Direction(1, 0, 0),
+  Direction(1, -1, 1), Direction(0.3, -0.5, 0.2), Direction(-0.2, 0.9, -0.6), Eye(9, -7, 5) };
+
+} // namespace
+
+TEST(VisibleRegions, Sphere)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case sphere;
+    nurbs::AddSphere(sphere.Builder, 2.0);
+    sphere.Run(viewer, 1e-3);
+    sphere.Check(1e-3, 60);
+    const double distance = viewer.Place.norm();
+    const double exact = viewer.Perspective ? 2.0 * PI * 4.0 * (1.0 - 2.0 / distance) : 8.0 * PI;
+    EXPECT_NEAR(sphere.VisibleArea(), exact, 2e-3 * exact);
+  }
+}
+
+TEST(VisibleRegions, SphereToSixDigits)
+{
+  Case sphere;
+  nurbs::AddSphere(sphere.Builder, 1.0);
+  sphere.Run(Direction(0.3, -0.5, 0.2), 1e-7);
+  EXPECT_NEAR(sphere.VisibleArea(), 2.0 * PI, 1e-6);
+}
+
+TEST(VisibleRegions, Cylinder)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case cylinder;
+    nurbs::AddCylinder(cylinder.Builder, 1.0, 2.0, true);
+    cylinder.Run(viewer, 1e-3);
+    cylinder.Check(1e-3, 60);
+    if (!viewer.Perspective)
+    {
+      const Vec3 d = viewer.Place;
+      const double side = std::hypot(d[0], d[1]) > 1e-9 ? 2.0 * PI : 0.0;
+      const double cap = std::abs(d[2]) > 1e-9 ? PI : 0.0;
+      EXPECT_NEAR(cylinder.VisibleArea(), side + cap, 5e-3);
+    }
+  }
+}
+
+TEST(VisibleRegions, Torus)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case torus;
+    nurbs::AddTorus(torus.Builder, 2.0, 0.7);
+    torus.Run(viewer, 1e-3);
+    torus.Check(1e-3, 80);
+  }
+}
+
+TEST(VisibleRegions, Prism)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case prism;
+    shapes::AddPrism(prism.Builder);
+    prism.Run(viewer, 1e-3);
+    prism.Check(1e-3, 60);
+  }
+}
+
+TEST(VisibleRegions, Teapot)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case teapot;
+    nurbs::AddTeapot(teapot.Builder);
+    teapot.Run(viewer, 2e-3);
+    teapot.Check(2e-3, 80);
+  }
+}
+
+TEST(VisibleRegions, Ball)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case ball;
+    shapes::AddBall(ball.Builder, true);
+    ball.Run(viewer, 1e-3);
+    ball.Check(1e-3, 60);
+  }
+}
