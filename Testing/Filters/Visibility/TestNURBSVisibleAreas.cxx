@@ -71,8 +71,8 @@ TEST(VisibleAreas, TorusAtSeveralAngles)
     const Vec3 view(std::sin(degrees * Pi / 180.0), 0.0, std::cos(degrees * Pi / 180.0));
     nurbs::ModelBuilder builder;
     solids::AddTorus(builder, 2.0, 0.7, solids::At(Vec3::Zero()));
-    const double expected = reference::VisibleTorusArea(torus, 0, view, 8000);
-    const double coarse = reference::VisibleTorusArea(torus, 0, view, 4000);
+    const double expected = reference::VisibleTorusArea(torus, 0, view, 2000);
+    const double coarse = reference::VisibleTorusArea(torus, 0, view, 1000);
     ASSERT_NEAR(coarse / expected, 1.0, Digits) << degrees;
     EXPECT_NEAR(VisibleArea(builder, view, false) / expected, 1.0, Digits) << degrees;
   }
@@ -82,18 +82,23 @@ TEST(VisibleAreas, InterlockedTori)
 {
   const std::vector<reference::PlacedTorus> tori{ { 2.0, 0.5, solids::At(Vec3::Zero()) },
     { 2.0, 0.4, solids::At(Vec3(2, 0, 0), Vec3::UnitY()) } };
-  for (const Vec3& view : { Vec3(0.3, 0.5, 1.0), Vec3(1.0, 0.2, 0.1) })
+  struct
+  {
+    Vec3 View;
+    double Area; ///< Of reference::VisibleTorusArea with 64,000 lines of 1,800 points: 3e-7 off.
+  } const cases[] = { { Vec3(0.3, 0.5, 1.0), 32.3444 }, { Vec3(1.0, 0.6, 0.5), 28.60646 } };
+  for (const auto& one : cases)
   {
     nurbs::ModelBuilder builder;
-    double expected = 0.0, coarse = 0.0;
+    double coarse = 0.0;
     for (std::size_t k = 0; k < tori.size(); ++k)
     {
       solids::AddTorus(builder, tori[k].Radius, tori[k].Tube, tori[k].Place);
-      expected += reference::VisibleTorusArea(tori, k, view, 16000);
-      coarse += reference::VisibleTorusArea(tori, k, view, 8000);
+      coarse += reference::VisibleTorusArea(tori, k, one.View, 1000);
     }
-    ASSERT_NEAR(coarse / expected, 1.0, Digits);
-    EXPECT_NEAR(VisibleArea(builder, view, false) / expected, 1.0, Digits) << view.transpose();
+    ASSERT_NEAR(coarse / one.Area, 1.0, 2e-5);
+    EXPECT_NEAR(VisibleArea(builder, one.View, false) / one.Area, 1.0, Digits)
+      << one.View.transpose();
   }
 }
 
