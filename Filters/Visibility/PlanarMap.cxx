@@ -389,11 +389,20 @@ private:
     if (!this->IsFlat())
     {
       Face face = this->Beside[edge][side];
-      Face from = this->Beside[edge][1 - side];
+      int index = 0; // Of the edge that the way has come through.
+      while (face->vertex(index) == this->Vertices[this->Segments.Edges[edge][0]] ||
+        face->vertex(index) == this->Vertices[this->Segments.Edges[edge][1]])
+      {
+        ++index;
+      }
       for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face);)
       {
-        const int index = face->index(from);
         const Vec2 apex = Place(face->vertex(index)) - middle;
+        if (std::abs(Cross(way, apex)) <= 1e-9 * (1.0 + apex.norm()))
+        {
+          free = std::min(free, way.dot(apex)); // Edges that end there may bar it.
+          break;
+        }
         // Left of the apex through the edge that is not the right end's, which follows the apex last.
         const bool leavesLeft = Cross(way, apex) < 0.0;
         const int out = leavesLeft ? Triangulation::cw(index) : Triangulation::ccw(index);
@@ -406,7 +415,7 @@ private:
           free = std::min(free, reached);
           break;
         }
-        from = face;
+        index = this->Mesh.mirror_index(face, out);
         face = face->neighbor(out);
       }
     }

@@ -15,6 +15,8 @@ namespace
 constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
 // Ends of curves at which nothing is between, as a share of the domain.
 constexpr double SameParameters = 1e-6;
+// Ends of pieces that are on different sides of a seam, as a share of the domain.
+constexpr double FarParameters = 0.25;
 
 // A half-edge 2 e + side runs along edge e and has that side's cell on its left.
 using HalfEdge = std::int32_t;
@@ -257,6 +259,7 @@ private:
     std::vector<Vec2>& out) const;
   Vec2 Seed(HalfEdge half) const;
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
+  void DropExcursions(RegionLoop& loop) const;
   void Close(RegionLoop& loop) const;
   Vec3 Point(const Vec2& uv) const { return Evaluate(this->Surface, uv[0], uv[1]); }
   bool IsFlipped(HalfEdge half) const
@@ -496,6 +499,36 @@ RegionPiece RegionLifter::Bridge(const Vec2& from, const Vec2& to) const
   return out;
 }
 
+// A piece on the far side of a seam between two that are not: where a line crosses the seam along a
+// silhouette, the two run together in the image for a while.
+void RegionLifter::DropExcursions(RegionLoop& loop) const
+{
+  const Model& model = this->Lines.Whole.Data;
+  const auto isFar = [&](const Vec2& a, const Vec2& b) {
+    return std::abs(a[0] - b[0]) > FarParameters * this->Surface.Domain(0).Length() ||
+      std::abs(a[1] - b[1]) > FarParameters * this->Surface.Domain(1).Length();
+  };
+  for (std::size_t k = 0; k < loop.size() && loop.size() > 2;)
+  {
+    const std::size_t before = (k + loop.size() - 1) % loop.size();
+    const std::size_t after = (k + 1) % loop.size();
+    const Vec2 start = EndOfPiece(model, loop[k], false);
+    const Vec2 end = EndOfPiece(model, loop[k], true);
+    const Vec2 from = EndOfPiece(model, loop[before], true);
+    const Vec2 to = EndOfPiece(model, loop[after], false);
+    if (loop[k].Curve < 0 && isFar(from, start) && isFar(end, to) && !isFar(from, to) &&
+      !isFar(start, end))
+    {
+      loop.erase(loop.begin() + std::ptrdiff_t(k));
+      k = 0;
+    }
+    else
+    {
+      ++k;
+    }
+  }
+}
+
 // Pieces that do not quite meet: a polyline is moved to the other piece's end; if there is none, or
 // the gap is wide (along a pole, or an edge that is seen end-on), a straight piece closes it.
 void RegionLifter::Close(RegionLoop& loop) const
@@ -508,9 +541,13 @@ void RegionLifter::Close(RegionLoop& loop) const
     const Vec2 end = EndOfPiece(this->Lines.Whole.Data, piece, true);
     const Vec2 start = EndOfPiece(this->Lines.Whole.Data, next, false);
     const bool isNear = (this->Point(end) - this->Point(start)).norm() <= 8.0 * this->Precision &&
-      std::abs(end[0] - start[0]) < 0.25 * this->Surface.Domain(0).Length() &&
-      std::abs(end[1] - start[1]) < 0.25 * this->Surface.Domain(1).Length();
-    bool joined = end == start;
+      std::abs(end[0] - start[0]) < FarParameters * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) < FarParameters * this->Surface.Domain(1).Length();
+    // Gaps that the model's own loops may have.
+    bool joined =
+      std::abs(end[0] - start[0]) <= SameParameters * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) <= SameParameters * this->Surface.Domain(1).Length();
+    joined = end == start || (joined && piece.Curve >= 0 && next.Curve >= 0);
     if (!joined && isNear && next.Curve < 0 && next.Polyline.size() > 1)
     {
       next.Polyline.front() = end;
@@ -567,6 +604,7 @@ RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
       this->AddOwn(steps[first], steps[last - 1], out);
     }
   }
+  this->DropExcursions(out);
   this->Close(out);
   if (!loop.empty() && this->IsFlipped(loop.front()))
   {

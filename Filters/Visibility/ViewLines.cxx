@@ -174,8 +174,8 @@ TrimCrossing FindCurve(const Model& model, const Face& face, const Vec2& uv)
 // Makes points of edges where silhouettes end on them, so that the two meet in the image, too.
 void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& line)
 {
-  std::sort(ends.begin(), ends.end(),
-    [](const EdgeEnd& a, const EdgeEnd& b) { return a.Share < b.Share; });
+  std::sort(
+    ends.begin(), ends.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.Share < b.Share; });
   for (const EdgeEnd& end : ends)
   {
     const auto above = std::lower_bound(line.Shares.begin(), line.Shares.end(), end.Share);
@@ -189,9 +189,8 @@ void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& lin
       line.Points[isSame(k) ? k : k - 1].Point = end.Point;
       continue;
     }
-    ContourPoint point =
-      ExactPointAt(lines, line, double(k - 1) + (end.Share - line.Shares[k - 1]) /
-          (line.Shares[k] - line.Shares[k - 1]));
+    ContourPoint point = ExactPointAt(lines, line,
+      double(k - 1) + (end.Share - line.Shares[k - 1]) / (line.Shares[k] - line.Shares[k - 1]));
     point.Point = end.Point;
     line.Shares.insert(above, end.Share);
     line.Points.insert(line.Points.begin() + k, point);
@@ -200,8 +199,7 @@ void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& lin
 
 // One image for what is one point: ends of edges at a vertex, of silhouettes that go on in each other
 // or end at a pole.
-void ProjectLines(
-  const Silhouettes& silhouettes, const ImagePlane& image, ViewLines& lines)
+void ProjectLines(const Silhouettes& silhouettes, const ImagePlane& image, ViewLines& lines)
 {
   const Model& model = lines.Whole.Data;
   for (ViewLine& line : lines.Lines)
@@ -214,8 +212,7 @@ void ProjectLines(
       const std::int64_t vertex = model.Edges[line.Edge].Vertex[end];
       if (vertex >= 0)
       {
-        (end == 0 ? line.Image.front() : line.Image.back()) =
-          image.Project(model.Vertices[vertex]);
+        (end == 0 ? line.Image.front() : line.Image.back()) = image.Project(model.Vertices[vertex]);
       }
     }
   }

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace nurbs
 {
@@ -112,11 +110,8 @@ bool RegionMaker::MakeMap()
       return false;
     }
   }
-  if (getenv("DBG")) for (int c = 0; c < this->Map.Plane.CellCount; ++c) { auto& p=this->Map.Plane.Samples[this->Map.Plane.SampleStart[c]]; Vec2 q=this->Map.ToImage(p.Point); printf("cell %d area %g radius %g at %g %g face %ld behind %d\n",c,this->Map.Plane.Areas[c],p.Radius,q[0],q[1],(long)this->Map.Cells[c].Face,this->Map.Cells[c].FromBehind);}
   AbsorbSlivers(this->Out.Lines, this->Map);
-  if (getenv("DBG")) for (int c = 0; c < this->Map.Plane.CellCount; ++c) printf("cell %d face %ld\n",c,(long)this->Map.Cells[c].Face);
   FindShownLines(this->Out.Lines, this->Image, this->Caster, this->Map, this->Options.Parallel);
-  if (getenv("DBG")) for (size_t e=0;e<this->Map.Snapped.Edges.size();++e) { Vec2 q=this->Map.VertexImage(this->Map.Snapped.Edges[e][0]); printf("edge %zu (%g %g) cells %d %d:",e,q[0],q[1],this->Map.Cell(e,0),this->Map.Cell(e,1)); for(auto&x:this->Map.SourcesOf(e)) printf(" line %d seg %g back %d shows %d",x.Line,this->Map.Segments[x.Segment].From,x.Backward,x.Shows); printf("\n"); }
   return true;
 }
 
@@ -257,13 +252,15 @@ void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) cons
     drawn.Face = line.Face;
     drawn.Edge = line.Edge < this->Out.Lines.Whole.KnownEdges ? line.Edge : -1;
     const bool startsAtPoint = piece.From == std::floor(piece.From);
-    drawn.Points.push_back(startsAtPoint ? line.Points[std::size_t(piece.From)] : ExactPointAt(this->Out.Lines, line, piece.From));
+    drawn.Points.push_back(startsAtPoint ? line.Points[std::size_t(piece.From)]
+                                         : ExactPointAt(this->Out.Lines, line, piece.From));
     for (auto k = std::size_t(piece.From) + 1; double(k) < piece.To; ++k)
     {
       drawn.Points.push_back(line.Points[k]);
     }
     const bool endsAtPoint = piece.To == std::floor(piece.To);
-    drawn.Points.push_back(endsAtPoint ? line.Points[std::size_t(piece.To)] : ExactPointAt(this->Out.Lines, line, piece.To));
+    drawn.Points.push_back(endsAtPoint ? line.Points[std::size_t(piece.To)]
+                                       : ExactPointAt(this->Out.Lines, line, piece.To));
     out.push_back(std::move(drawn));
   }
 }

@@ -213,7 +213,8 @@ void nurbsColor(float ambientIntensity, float diffuseIntensity, inout vec3 ambie
   }
   opacity = color.a * (block.g > 0.5 ? block.b : opacity);
 #ifdef NURBS_LOOK
-  vec3 look = nurbsLook(diffuseColor / max(diffuseIntensity, 1e-6));
+  vec3 look = nurbsLook(diffuseIntensity > 1e-6 ? diffuseColor / diffuseIntensity
+                                                : ambientColor / max(ambientIntensity, 1e-6));
   ambientColor = ambientIntensity * look;
   diffuseColor = diffuseIntensity * look;
 #endif

@@ -239,6 +239,26 @@ double Distance(const Vec2& p, const GridPoint& a, const GridPoint& b)
   return (p - from - t * along).norm();
 }
 
+/// True if no edge but `own` crosses the way from a to b.
+bool IsClear(const SnappedSegments& segments, std::size_t own, const Vec2& a, const Vec2& b)
+{
+  const auto turn = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  };
+  for (std::size_t e = 0; e < segments.Edges.size(); ++e)
+  {
+    const GridPoint& start = segments.Vertices[segments.Edges[e][0]];
+    const GridPoint& end = segments.Vertices[segments.Edges[e][1]];
+    const Vec2 p(double(start.X), double(start.Y));
+    const Vec2 q(double(end.X), double(end.Y));
+    if (e != own && turn(a, b, p) * turn(a, b, q) < 0.0 && turn(p, q, a) * turn(p, q, b) < 0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 void ExpectFree(
   const SnappedSegments& segments, const PlanarMap& map, const PlanarSample& sample, int cell)
 {
@@ -287,7 +307,8 @@ void ExpectSamples(const SnappedSegments& segments, const PlanarMap& map, int mo
       // No edge crosses the way twice as far.
       const Vec2 middle(0.5 * double(a.X + b.X), 0.5 * double(a.Y + b.Y));
       EXPECT_NEAR((sample.Point - middle).norm(), sample.Radius, 1e-9);
-      EXPECT_TRUE(IsClear(segments, e, middle, middle + 2.0 * (1.0 - 1e-9) * (sample.Point - middle)));
+      EXPECT_TRUE(
+        IsClear(segments, e, middle, middle + 2.0 * (1.0 - 1e-9) * (sample.Point - middle)));
     }
   }
 }

@@ -99,8 +99,7 @@ inline RegionCheck CheckRegions(
   nurbs::Box2 box;
   for (const nurbs::ViewLine& line : result.Lines.Lines)
   {
-    std::for_each(
-      line.Image.begin(), line.Image.end(), [&](const Vec2& p) { box.extend(p); });
+    std::for_each(line.Image.begin(), line.Image.end(), [&](const Vec2& p) { box.extend(p); });
   }
   std::vector<nurbs::RayHit> hits;
   for (int k = 0; k < n * n; ++k)

@@ -113,17 +113,6 @@ TEST(VisibleRegions, Prism)
   }
 }
 
-TEST(VisibleRegions, Teapot)
-{
-  for (const Viewer& viewer : Views)
-  {
-    Case teapot;
-    nurbs::AddTeapot(teapot.Builder);
-    teapot.Run(viewer, 2e-3);
-    teapot.Check(2e-3, 80);
-  }
-}
-
 TEST(VisibleRegions, Ball)
 {
   for (const Viewer& viewer : Views)

@@ -25,7 +25,11 @@ def build():
     follower.Camera = "Nobody"
     view = simple.CreateView("RenderView")
     simple.Show(mesh, view)
-    return view
+    simple.Hide(mesh, view)
+    display = simple.Show(reader, view)
+    item = smtrace.PropertiesModified(display)
+    display.Look, display.FaceEdges, display.PixelError = "Zebra", 1, 0.25
+    item.finalize()
 
 
 def figures():
@@ -33,12 +37,14 @@ def figures():
     for proxy in found.values():
         updated(proxy)
     mesh = found["mesh"]
+    display = simple.GetDisplayProperties(found["rods"], simple.GetActiveView())
     return (
         [size(proxy) for proxy in found.values()],
         list(found["bent"].LatticeMoves),
         found["bent"].NumberOfMovedPoints,
         (mesh.CertifiedError, mesh.AbsoluteTolerance, list(mesh.Camera.CameraPosition)),
         list(found["lines"].Direction),
+        (display.Representation, display.Look, display.FaceEdges, display.PixelError),
     )
 
 
@@ -60,6 +66,7 @@ build()
 trace = smtrace.stop_trace()
 expected = figures()
 print("built ", expected)
+assert expected[5] == ("NURBS Surface", "Zebra", 1, 0.25), expected
 assert expected[2] > 0 and 0 < expected[3][0] <= 2e-6
 simple.SaveState(path("plugin.pvsm"))
 with open(path("plugin.py"), "w") as file:

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSSurfaceRepresentation.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeRange.h"
+#include "vtkInformation.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNURBSMapper.h"
+#include "vtkNURBSModelBlocks.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
+#include "vtkPVRenderView.h"
+#include "vtkProperty.h"
+#include "vtkSelection.h"
+
+#include <array>
+#include <optional>
+
+vtkStandardNewMacro(vtkNURBSSurfaceRepresentation);
+
+namespace
+{
+
+using Attributes = vtkCompositeDataDisplayAttributes;
+
+// What a block has of its own or of the blocks around it.
+struct Style
+{
+  bool Visible = true;
+  std::optional<double> Opacity;
+  std::optional<std::array<double, 3>> Color;
+
+  Style Inside(vtkDataObject* block, Attributes* given) const
+  {
+    Style style = *this;
+    if (given->HasBlockVisibility(block))
+    {
+      style.Visible = given->GetBlockVisibility(block);
+    }
+    if (given->HasBlockOpacity(block))
+    {
+      style.Opacity = given->GetBlockOpacity(block);
+    }
+    if (given->HasBlockColor(block))
+    {
+      style.Color.emplace();
+      given->GetBlockColor(block, style.Color->data());
+    }
+    return style;
+  }
+};
+
+// The mapper looks at leaves only: tells them what was said of the blocks around them.
+void SetLeaves(vtkDataObject* block, const Style& around, Attributes* given, Attributes* leaves)
+{
+  const Style style = around.Inside(block, given);
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(block))
+  {
+    for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::SkipEmptyNodes))
+    {
+      SetLeaves(child, style, given, leaves);
+    }
+    return;
+  }
+  leaves->SetBlockVisibility(block, style.Visible);
+  if (style.Opacity)
+  {
+    leaves->SetBlockOpacity(block, *style.Opacity);
+  }
+  if (style.Color)
+  {
+    leaves->SetBlockColor(block, style.Color->data());
+  }
+}
+
+} // namespace
+
+vtkNURBSSurfaceRepresentation::vtkNURBSSurfaceRepresentation()
+{
+  // One filter instead of a surface filter and one that makes blocks of its output.
+  this->GeometryFilter->Delete();
+  this->MultiBlockMaker->Delete();
+  auto* blocks = vtkNURBSModelBlocks::New();
+  this->GeometryFilter = blocks;
+  this->MultiBlockMaker = blocks;
+  blocks->Register(nullptr);
+
+  this->Mapper->Delete();
+  auto* mapper = vtkNURBSMapper::New();
+  this->Mapper = mapper;
+  vtkNew<vtkSelection> selection;
+  mapper->SetSelection(selection);
+  vtkNew<Attributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  this->Actor->SetMapper(mapper);
+  this->SuppressLOD = true;
+}
+
+void vtkNURBSSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UseModelColors: " << this->UseModelColors << "\n";
+  os << indent << "FaceEdges: " << this->FaceEdges << "\n";
+  os << indent << "UseLookRange: " << this->UseLookRange << "\n";
+  os << indent << "LookRange: " << this->LookRange[0] << " " << this->LookRange[1] << "\n";
+}
+
+vtkNURBSMapper* vtkNURBSSurfaceRepresentation::GetNURBSMapper()
+{
+  return static_cast<vtkNURBSMapper*>(this->Mapper);
+}
+
+int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (request == vtkPVView::REQUEST_RENDER())
+  {
+    if (!this->vtkPVDataRepresentation::ProcessViewRequest(request, inInfo, outInfo))
+    {
+      return 0;
+    }
+    this->SetDrawnData(vtkPVView::GetDeliveredPiece(inInfo, this));
+    this->Actor->SetEnableLOD(0);
+    this->UpdateColoringParameters();
+    return 1;
+  }
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0;
+  }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    // Faces can't be cut between processes as polygons can.
+    vtkPVRenderView::SetOrderedCompositingConfiguration(
+      inInfo, this, vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION);
+    // Control points can lie far from what trims leave of a surface: the mapper knows better.
+    this->SetDrawnData(this->MultiBlockMaker->GetOutputDataObject(0));
+    double bounds[6];
+    this->Mapper->GetBounds(bounds);
+    vtkNew<vtkMatrix4x4> matrix;
+    this->Actor->GetMatrix(matrix);
+    vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+  }
+  return 1;
+}
+
+void vtkNURBSSurfaceRepresentation::SetDrawnData(vtkDataObject* delivered)
+{
+  this->UpdateBlockAttributes(delivered);
+  vtkDataObject* drawn = vtkNURBSModelBlocks::GetDrawn(delivered);
+  if (this->Mapper->GetInputDataObject(0, 0) != drawn)
+  {
+    this->Mapper->SetInputDataObject(drawn);
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::UpdateBlockAttributes(vtkDataObject* delivered)
+{
+  // Data are told apart by their time of modification, which no two objects have in common.
+  const vtkMTimeType time = delivered ? delivered->GetMTime() : 0;
+  if (this->BlocksOf == time && !this->BlockAttrChanged)
+  {
+    return;
+  }
+  this->BlocksOf = time;
+  this->BlockAttrChanged = false;
+  vtkNew<Attributes> given;
+  Attributes* leaves = this->GetNURBSMapper()->GetCompositeDataDisplayAttributes();
+  leaves->RemoveBlockVisibilities();
+  leaves->RemoveBlockOpacities();
+  leaves->RemoveBlockColors();
+  if (delivered)
+  {
+    this->PopulateBlockAttributes(given, delivered);
+    SetLeaves(delivered, Style(), given, leaves);
+  }
+  leaves->Modified();
+}
+
+// The array that colours, and whether its values are colours themselves.
+bool vtkNURBSSurfaceRepresentation::ColorsByArray(const char*& name, bool& direct)
+{
+  name = this->GetColorArrayName();
+  direct = !this->MapScalars;
+  if (name && name[0])
+  {
+    return true;
+  }
+  name = "Color";
+  direct = true;
+  return this->UseModelColors;
+}
+
+// As the superclass, without a change to and fro that would make the mapper start anew every frame.
+void vtkNURBSSurfaceRepresentation::UpdateColoringParameters()
+{
+  const char* name = nullptr;
+  bool direct = false;
+  if (this->ColorsByArray(name, direct))
+  {
+    this->Mapper->SetScalarVisibility(1);
+    this->Mapper->SelectColorArray(name);
+    this->Mapper->SetUseLookupTableScalarRange(1);
+    this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
+    this->Mapper->SetColorMode(direct ? VTK_COLOR_MODE_DIRECT_SCALARS : VTK_COLOR_MODE_MAP_SCALARS);
+  }
+  else
+  {
+    this->Mapper->SetScalarVisibility(0);
+    this->Mapper->SelectColorArray(nullptr);
+  }
+  this->Property->SetAmbient(this->Ambient);
+  this->Property->SetSpecular(this->Specular);
+  this->Property->SetDiffuse(this->Diffuse);
+  this->Property->SetRepresentation(VTK_SURFACE);
+  this->Property->SetEdgeVisibility(this->FaceEdges);
+}
+
+void vtkNURBSSurfaceRepresentation::SetMapScalars(int map)
+{
+  this->MapScalars = map != 0;
+}
+
+void vtkNURBSSurfaceRepresentation::SetUseLookRange(bool use)
+{
+  if (this->UseLookRange != use)
+  {
+    this->UseLookRange = use;
+    this->UpdateLookTable();
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::SetLookRange(double least, double largest)
+{
+  if (this->LookRange[0] != least || this->LookRange[1] != largest)
+  {
+    this->LookRange[0] = least;
+    this->LookRange[1] = largest;
+    this->UpdateLookTable();
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::UpdateLookTable()
+{
+  if (!this->UseLookRange)
+  {
+    this->GetNURBSMapper()->SetLookTable(nullptr);
+    return;
+  }
+  const auto [least, largest] = this->LookRange;
+  vtkNew<vtkColorTransferFunction> table;
+  table->AddRGBPoint(least, 0.23, 0.30, 0.75);
+  table->AddRGBPoint(0.5 * (least + largest), 0.87, 0.87, 0.87);
+  table->AddRGBPoint(largest, 0.71, 0.02, 0.15);
+  this->GetNURBSMapper()->SetLookTable(table);
+}
+
+void vtkNURBSSurfaceRepresentation::SetPixelError(double pixels)
+{
+  this->GetNURBSMapper()->SetPixelError(pixels);
+}
+
+void vtkNURBSSurfaceRepresentation::SetExactFragments(bool exact)
+{
+  this->GetNURBSMapper()->SetExactFragments(exact);
+}
+
+void vtkNURBSSurfaceRepresentation::SetUseTessellation(bool use)
+{
+  this->GetNURBSMapper()->SetUseTessellation(use);
+}
+
+void vtkNURBSSurfaceRepresentation::SetInteractiveFrameRate(double rate)
+{
+  this->GetNURBSMapper()->SetInteractiveFrameRate(rate);
+}
+
+void vtkNURBSSurfaceRepresentation::SetLook(int look)
+{
+  this->GetNURBSMapper()->SetLook(look);
+}
+
+void vtkNURBSSurfaceRepresentation::SetLookDirection(double x, double y, double z)
+{
+  this->GetNURBSMapper()->SetLookDirection(x, y, z);
+}
+
+void vtkNURBSSurfaceRepresentation::SetNumberOfStripes(int stripes)
+{
+  this->GetNURBSMapper()->SetNumberOfStripes(stripes);
+}
+
+void vtkNURBSSurfaceRepresentation::SetNumberOfIsoLines(int u, int v)
+{
+  this->GetNURBSMapper()->SetNumberOfIsoLines(u, v);
+}
+
+vtkIdType vtkNURBSSurfaceRepresentation::GetNumberOfTriangles()
+{
+  return this->GetNURBSMapper()->GetNumberOfTriangles();
+}
+
+double vtkNURBSSurfaceRepresentation::GetAchievedPixelError()
+{
+  return this->GetNURBSMapper()->GetAchievedPixelError();
+}
+
+bool vtkNURBSSurfaceRepresentation::GetDrawsTessellation()
+{
+  return this->GetNURBSMapper()->GetDrawsTessellation();
+}
