@@ -52,6 +52,7 @@ struct Options
   double Precision = 1e-4;
   double Rays = 1e6;
   bool Hidden = false;
+  bool NoClustering = false;
   int List = 0;
   int AreaLines = 0;
   int Threads = 0;
@@ -145,6 +146,7 @@ public:
     filter->SetDirection(place[0], place[1], place[2]);
     filter->SetEyePoint(place[0], place[1], place[2]);
     filter->SetPrecision(this->Given.Precision);
+    filter->SetClustering(!this->Given.NoClustering);
     filter->SetRegion(this->Given.Hidden ? vtkNURBSVisibleRegions::HIDDEN_REGION
                                          : vtkNURBSVisibleRegions::VISIBLE_REGION);
     const measuring::Stopwatch watch;
@@ -190,14 +192,16 @@ private:
     const std::string model = this->Given.Shape.empty()
       ? std::filesystem::path(this->Given.File).filename().string()
       : this->Given.Shape;
-    std::printf("%-24s %s %-14s %6zu faces %6zu with regions (%zu bad)  %8.3f s | rays %lld hits "
-                "%lld agree %lld within %lld narrow %lld NEAR %lld WRONG %lld (on faces without region %lld) "
-                "worst %.3g precisions | %.1f s\n",
+    std::printf(
+      "%-24s %s %-14s %6zu faces %6zu with regions (%zu bad)  %8.3f s | rays %lld hits "
+      "%lld agree %lld within %lld narrow %lld NEAR %lld WRONG %lld (on faces without region %lld) "
+      "worst %.3g precisions | %.1f s\n",
       model.c_str(), isEye ? "eye" : "view", name.c_str(), this->Source.Model.Faces.size(), regions,
       failed, seconds, static_cast<long long>(check.Rays), static_cast<long long>(check.Hits),
       static_cast<long long>(check.Agree), static_cast<long long>(check.Within),
-      static_cast<long long>(check.Narrow), static_cast<long long>(check.Near), static_cast<long long>(check.Wrong),
-      static_cast<long long>(check.MissedFaces), check.Worst, checking);
+      static_cast<long long>(check.Narrow), static_cast<long long>(check.Near),
+      static_cast<long long>(check.Wrong), static_cast<long long>(check.MissedFaces), check.Worst,
+      checking);
     for (const truth::Disagreement& one : check.List)
     {
       std::printf("  face %lld (FaceId %lld) uv %.9g %.9g point %.9g %.9g %.9g is %s, %.3g "
@@ -250,6 +254,7 @@ int main(int argc, char** argv)
   app.add_option("--precision", options.Precision, "of the diagonal")->capture_default_str();
   app.add_option("--rays", options.Rays)->capture_default_str();
   app.add_flag("--hidden", options.Hidden, "the hidden regions instead of the visible ones");
+  app.add_flag("--no-clustering", options.NoClustering);
   app.add_option("--list", options.List, "disagreements to list");
   app.add_option("--area-lines", options.AreaLines, "compare the area of a closed solid, too");
   app.add_option("--threads", options.Threads, "0: as many as there are");
