@@ -22,7 +22,8 @@ constexpr double AnyBow = 16.0;
 constexpr double LinePart =
   0.7; // ...and is this part at least of the chord that may bow by AnyBow.
 constexpr double LeastLine = 4.0;
-constexpr double ShortestBow = 1.0 / 16.0; // To where pieces are evened out.
+constexpr double ShortestBow = 1.0 / 16.0; // To where pieces are evened out,
+constexpr int EveningRounds = 2;           // each round for the cost of a fit.
 
 double AngleBetween(const Vec2& a, const Vec2& b)
 {
@@ -311,7 +312,7 @@ std::vector<PathPiece> Section::FitRun(const Run& run, const CubicEnds& ends) co
 {
   std::vector<PathPiece> best = this->FitRun(run, ends, this->Tolerance);
   double low = ShortestBow, high = 1.0;
-  for (int k = 0; k < 4 && best.size() > 1; ++k)
+  for (int k = 0; k < EveningRounds && best.size() > 1; ++k)
   {
     const double middle = std::sqrt(low * high);
     std::vector<PathPiece> pieces = this->FitRun(run, ends, middle * this->Tolerance);
