@@ -16,9 +16,10 @@ enum class LineKind
   Boundary,       ///< An edge that one face uses once.
   Sharp,          ///< An edge whose faces' normals differ by more than the feature angle somewhere,
                   ///< or of more than two faces.
-  Smooth          ///< Another edge, also a seam.
+  Smooth,         ///< Another edge, also a seam.
+  Intersection    ///< Where two faces pierce each other; of visible regions only.
 };
-inline constexpr int LineKindCount = 4;
+inline constexpr int LineKindCount = 4; ///< Of silhouettes and edges.
 
 /// The uses of every edge by faces without an error.
 std::vector<std::vector<EdgeUse>> UsesOfEdges(

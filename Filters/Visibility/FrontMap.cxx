@@ -498,7 +498,8 @@ void ShownLines::Find(std::int64_t index)
   {
     last = this->Walk.GroupEnd(steps, first);
     // A silhouette has its own surface on its left only.
-    for (int lineSide = 0; lineSide < (line.IsEdge() ? 2 : 1); ++lineSide)
+    const int sides = line.IsEdge() || line.IsIntersection() ? 2 : 1;
+    for (int lineSide = 0; lineSide < sides; ++lineSide)
     {
       const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
       const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;

@@ -106,7 +106,8 @@ bool BorderTracer::IsCut(std::int32_t edge, std::int64_t face) const
   for (const LineSource& source : this->Map.SourcesOf(edge))
   {
     const ViewLine& line = this->Lines.Lines[source.Line];
-    if (source.Shows == 0 || !IsOfFace(this->Lines, line, face))
+    // Where it is pierced, a face goes on beyond, behind the other one.
+    if (source.Shows == 0 || line.IsIntersection() || !IsOfFace(this->Lines, line, face))
     {
       continue;
     }
@@ -320,7 +321,7 @@ void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) con
         this->Map.At(this->Lines.Lines, source, ends[1]));
     if (!line.IsEdge())
     {
-      out.push_back({ &source, -1, ParametersAt(line, middle), line.Edge < 0 ? 1.0 : 4.0 });
+      out.push_back({ &source, -1, ParametersAt(line, middle, this->FaceIndex), line.Edge < 0 ? 1.0 : 4.0 });
       continue;
     }
     RegionPiece piece;
@@ -396,22 +397,22 @@ void RegionLifter::AddOwn(const Step& first, const Step& last, RegionLoop& out) 
     }
     return;
   }
-  piece.Polyline.push_back(ParametersAt(line, first.From));
+  piece.Polyline.push_back(ParametersAt(line, first.From, this->FaceIndex));
   if (first.From < last.To)
   {
     for (auto k = std::size_t(first.From) + 1; double(k) < last.To; ++k)
     {
-      piece.Polyline.push_back(line.Points[k].UV);
+      piece.Polyline.push_back(ParametersAt(line, double(k), this->FaceIndex));
     }
   }
   else
   {
     for (auto k = std::int64_t(std::ceil(first.From)) - 1; double(k) > last.To; --k)
     {
-      piece.Polyline.push_back(line.Points[k].UV);
+      piece.Polyline.push_back(ParametersAt(line, double(k), this->FaceIndex));
     }
   }
-  piece.Polyline.push_back(ParametersAt(line, last.To));
+  piece.Polyline.push_back(ParametersAt(line, last.To, this->FaceIndex));
   out.push_back(std::move(piece));
 }
 

@@ -13,6 +13,8 @@ namespace nurbs
 namespace
 {
 
+// Share of the work that silhouettes are.
+constexpr double SilhouettesDone = 0.7;
 // As MakeSilhouettes completes models.
 constexpr double JoinShare = 1e-7;
 
@@ -205,9 +207,23 @@ void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& lin
   }
 }
 
+// Moves the image of a line that ends at a vertex to that of the vertex. Elsewhere on an edge, it is the
+// point that InsertEnds has made.
+void EndAtVertex(
+  const Model& model, const TrimCrossing& crossing, const ImagePlane& image, Vec2& at)
+{
+  const Edge& edge = model.Edges[model.TrimCurves[crossing.Curve].Edge];
+  const double share = ShareOf(model.TrimCurves[crossing.Curve], crossing.Parameter);
+  const int vertex = share < SameShare ? 0 : (share > 1.0 - SameShare ? 1 : -1);
+  const bool isVertex = vertex >= 0 || IsDegenerate(edge);
+  const std::int64_t v = isVertex ? edge.Vertex[std::max(vertex, 0)] : -1;
+  at = v >= 0 ? image.Project(model.Vertices[v]) : at;
+}
+
 // One image for what is one point: ends of edges at a vertex, of silhouettes that go on in each other
-// or end at a pole.
-void ProjectLines(const Silhouettes& silhouettes, const ImagePlane& image, ViewLines& lines)
+// or end at a pole, of intersections.
+void ProjectLines(const Silhouettes& silhouettes, const FaceIntersections& intersections,
+  const ImagePlane& image, ViewLines& lines)
 {
   const Model& model = lines.Whole.Data;
   for (ViewLine& line : lines.Lines)
@@ -234,12 +250,7 @@ void ProjectLines(const Silhouettes& silhouettes, const ImagePlane& image, ViewL
       const std::int64_t edge = curve < 0 ? -1 : model.TrimCurves[curve].Edge;
       if (edge >= 0)
       {
-        // The point that InsertEnds has made, or the vertex.
-        const double share = ShareOf(model.TrimCurves[curve], source.Ends[end].Parameter);
-        const int vertex = share < SameShare ? 0 : (share > 1.0 - SameShare ? 1 : -1);
-        const bool isVertex = vertex >= 0 || IsDegenerate(model.Edges[edge]);
-        const std::int64_t v = isVertex ? model.Edges[edge].Vertex[std::max(vertex, 0)] : -1;
-        at = v >= 0 ? image.Project(model.Vertices[v]) : at;
+        EndAtVertex(model, source.Ends[end], image, at);
       }
       else if (source.Next[end] >= 0 && source.Next[end] < std::int64_t(k))
       {
@@ -248,17 +259,62 @@ void ProjectLines(const Silhouettes& silhouettes, const ImagePlane& image, ViewL
       }
     }
   }
+  for (std::size_t k = 0; k < intersections.Curves.size(); ++k)
+  {
+    ViewLine& line = lines.Lines[silhouettes.Lines.size() + k];
+    for (int end = 0; end < 2; ++end)
+    {
+      const TrimCrossing& crossing = intersections.Curves[k].Ends[end];
+      if (crossing.Curve >= 0)
+      {
+        EndAtVertex(model, crossing, image, end == 0 ? line.Image.front() : line.Image.back());
+      }
+    }
+  }
+}
+
+// Appends intersection curves, and to `ends` where they end on edges.
+void AddIntersections(
+  const FaceIntersections& intersections, std::vector<std::vector<EdgeEnd>>& ends, ViewLines& lines)
+{
+  for (const FaceIntersection& curve : intersections.Curves)
+  {
+    ViewLine line;
+    line.Kind = LineKind::Intersection;
+    line.Face = curve.Face[0];
+    line.OtherFace = curve.Face[1];
+    for (const IntersectionPoint& point : curve.Points)
+    {
+      line.Points.push_back({ point.UV[0], point.Point, 0.0 });
+      line.OtherUV.push_back(point.UV[1]);
+    }
+    line.IsBehind = std::all_of(curve.Face, curve.Face + 2,
+      [&](std::int64_t face) { return lines.IsShell[face] && !MayFaceViewer(lines.Faces[face]); });
+    for (int end = 0; end < 2; ++end)
+    {
+      if (curve.Ends[end].Curve >= 0)
+      {
+        const TrimCurve& trim = lines.Whole.Data.TrimCurves[curve.Ends[end].Curve];
+        ends[trim.Edge].push_back({ ShareOf(trim, curve.Ends[end].Parameter),
+          end == 0 ? curve.Points.front().Point : curve.Points.back().Point });
+      }
+    }
+    lines.Lines.push_back(std::move(line));
+  }
 }
 
 } // namespace
 
-ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& faceErrors,
-  const SilhouetteOptions& options, const ImagePlane& image)
+ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
+  const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
+  const ImagePlane& image)
 {
   ViewLines out;
   SilhouetteOptions contours = options;
   const bool kinds[LineKindCount] = { true, false, false, false };
   std::copy(kinds, kinds + LineKindCount, contours.Kinds);
+  const auto report = [&](double done) { return !options.Progress || options.Progress(done); };
+  contours.Progress = [&](double done) { return report(SilhouettesDone * done); };
   Silhouettes silhouettes = MakeSilhouettes(model, faceErrors, contours);
   out.Aborted = silhouettes.Aborted;
   if (out.Aborted)
@@ -271,6 +327,19 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
   out.Uses = UsesOfEdges(out.Whole.Data, faceErrors);
   out.Faces = silhouettes.Faces;
   out.IsShell = FindShells(out);
+  FaceIntersectionOptions piercing;
+  piercing.Precision = options.Precision;
+  piercing.Parallel = options.Parallel;
+  piercing.Progress = [&](double done) {
+    return report(SilhouettesDone + (1.0 - SilhouettesDone) * done);
+  };
+  const FaceIntersections intersections =
+    FindIntersections(out.Whole.Data, trims, faceErrors, piercing);
+  out.Aborted = intersections.Aborted;
+  if (out.Aborted)
+  {
+    return out;
+  }
   const auto edges = std::int64_t(out.Whole.Data.Edges.size());
   std::vector<std::vector<EdgeEnd>> ends(edges);
   std::vector<char> meets(edges, 0);
@@ -307,6 +376,7 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
     }
     out.Lines.push_back(std::move(line));
   }
+  AddIntersections(intersections, ends, out);
   const auto first = std::int64_t(out.Lines.size());
   out.Lines.resize(first + edges);
   options.Parallel(0, edges, [&](std::int64_t begin, std::int64_t end) {
@@ -323,7 +393,7 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
   out.Lines.erase(std::remove_if(out.Lines.begin() + first, out.Lines.end(),
                     [](const ViewLine& line) { return line.Points.size() < 2; }),
     out.Lines.end());
-  ProjectLines(silhouettes, image, out);
+  ProjectLines(silhouettes, intersections, image, out);
   return out;
 }
 
@@ -331,7 +401,7 @@ bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
 {
   if (!line.IsEdge())
   {
-    return line.Face == face;
+    return line.Face == face || (line.IsIntersection() && line.OtherFace == face);
   }
   const std::vector<EdgeUse>& uses = lines.Uses[line.Edge];
   return std::any_of(
@@ -355,6 +425,12 @@ Vec2 ParametersAt(const ViewLine& line, LinePosition at)
   const Vec2& a = line.Points[k].UV;
   return k + 1 < line.Points.size() && share > 0.0 ? Vec2(a + share * (line.Points[k + 1].UV - a))
                                                    : a;
+}
+
+Vec2 ParametersAt(const ViewLine& line, LinePosition at, std::int64_t face)
+{
+  return line.IsIntersection() && face == line.OtherFace ? Interpolate(line.OtherUV, at)
+                                                         : ParametersAt(line, at);
 }
 
 Vec2 ImageAt(const ViewLine& line, LinePosition at)

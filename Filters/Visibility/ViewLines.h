@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ViewLines.h
-/// @brief All lines at which what is seen of a model can change: silhouettes and edges, projected.
+/// @brief All lines at which what is seen of a model can change: silhouettes, edges and intersection
+/// curves, projected.
 #pragma once
 
+#include "FaceIntersections.h"
 #include "ImagePlane.h"
 #include "Silhouette.h"
 
@@ -17,8 +19,12 @@ struct ViewLine
 {
   LineKind Kind = LineKind::Silhouette;
   bool Crease = false;
-  /// A silhouette's face; an edge's first use. UV of the points are in its domain.
+  /// A silhouette's face; an edge's first use; an intersection's first face. UV of the points are in its
+  /// domain.
   std::int64_t Face = -1;
+  /// Intersections: the second face, and the points in its domain.
+  std::int64_t OtherFace = -1;
+  std::vector<Vec2> OtherUV;
   std::int64_t Edge = -1; ///< Of the completed model; -1: within the face.
   std::vector<ContourPoint> Points;
   /// Edges: shares of every use's trim curve, 0 at its Domain().Min, that belong to the points.
@@ -32,6 +38,7 @@ struct ViewLine
   bool IsBehind = false;
 
   bool IsEdge() const { return !this->Shares.empty(); }
+  bool IsIntersection() const { return this->OtherFace >= 0; }
 };
 
 /// What the lines are made of.
@@ -45,20 +52,24 @@ struct ViewLines
   bool Aborted = false;
 };
 
-/// Makes silhouettes (on their faces' left, as in Silhouette.h; closed ones repeat their first point)
-/// and all edges but degenerate ones, smooth ones and seams, too, with chords within `precision`.
-ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& faceErrors,
-  const SilhouetteOptions& options, const ImagePlane& image);
+/// Makes silhouettes (on their faces' left, as in Silhouette.h; closed ones repeat their first point),
+/// intersection curves and all edges but degenerate ones, smooth ones and seams, too, with chords within
+/// the precision of `options`. `trims`: of the model.
+ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
+  const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
+  const ImagePlane& image);
 
-/// True if the line lies on the border of a face: it is an edge that the face uses, or its silhouette.
+/// True if the line may border what is seen of a face: it is an edge that the face uses, its silhouette,
+/// or where it is pierced.
 bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face);
 
 /// Point of a line, and its image.
 Vec3 PointAt(const ViewLine& line, LinePosition at);
 Vec2 ImageAt(const ViewLine& line, LinePosition at);
-/// (u, v) on the line's own face.
+/// (u, v) on the line's own face; on the face given, which may be the other one of an intersection.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at);
-/// The same, moved from the chord to the edge's curve; silhouettes: to the surface.
+Vec2 ParametersAt(const ViewLine& line, LinePosition at, std::int64_t face);
+/// The same, moved from the chord to the edge's curve; other lines: to the own face's surface.
 ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at);
 /// Share of the trim curves; of edges only.
 double ShareAt(const ViewLine& line, LinePosition at);

@@ -57,7 +57,8 @@ struct VisibleRegions
   std::optional<ImagePlane> Image; ///< What was projected to.
   ViewLines Lines;                 ///< With the model completed, which regions refer to.
   std::vector<FaceRegion> Faces;   ///< One a face.
-  std::vector<DrawnLine> Drawn;    ///< Silhouettes by face, then edges by their index.
+  /// Silhouettes by face, then intersections by pair of faces, then edges by their index.
+  std::vector<DrawnLine> Drawn;
   /// Faces of which now one and now the other is in front within one cell of the image: they pierce
   /// or touch each other there, and the border between their regions is not exact. -1: nothing.
   std::vector<std::array<std::int64_t, 2>> Piercing;

@@ -15,7 +15,7 @@ namespace vtkNURBSRegionOutput
 /// Which lines a drawing has, and where.
 struct LineChoice
 {
-  bool Kinds[nurbs::LineKindCount] = { true, true, true, false };
+  bool Kinds[nurbs::LineKindCount + 1] = { true, true, true, false, true };
   bool Hidden = true;
   bool Project = false; ///< To x and y in the image plane.
 };

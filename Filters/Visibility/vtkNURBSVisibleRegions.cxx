@@ -185,6 +185,7 @@ int vtkNURBSVisibleRegions::RequestData(
   choice.Kinds[1] = this->GetBoundaryEdges();
   choice.Kinds[2] = this->GetSharpEdges();
   choice.Kinds[3] = this->GetSmoothEdges();
+  choice.Kinds[4] = this->Intersections;
   choice.Hidden = this->HiddenLines;
   choice.Project = this->ProjectLines;
   const auto grids = work.Pool.MakeLeaves<vtkUnstructuredGrid>(input, models);
@@ -209,6 +210,7 @@ void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "Region: " << (this->Region == HIDDEN_REGION ? "hidden" : "visible") << "\n";
   os << indent << "BothSides: " << this->BothSides << "\n";
+  os << indent << "Intersections: " << this->Intersections << "\n";
   os << indent << "HiddenLines: " << this->HiddenLines << "\n";
   os << indent << "ProjectLines: " << this->ProjectLines << "\n";
   os << indent << "Clustering: " << this->Clustering << "\n";

@@ -27,16 +27,18 @@
  * | points (double) | | on the surface; with ProjectLines: x (right) and y (up) in the image plane |
  * | point data | UV (double, 2) | parameters in the domain of the line's face |
  * | cell data | Visibility (unsigned char) | 1 visible, 0 hidden |
- * | cell data | Kind (unsigned char) | 0 silhouette, 1 boundary, 2 sharp edge, 3 smooth edge |
+ * | cell data | Kind (unsigned char) | 0 silhouette, 1 boundary, 2 sharp edge, 3 smooth edge, 4 intersection of faces |
  * | cell data | EdgeId | the edge that the line is part of, as the input's trim curves name it; -1: none |
- * | cell data | FaceId and all other attributes of the input's faces | of the line's face (of an edge: the first that uses it) |
+ * | cell data | FaceId and all other attributes of the input's faces | of the line's face (of an edge: the first that uses it; of an intersection: the first of the two) |
  *
  * Precision is that of the image: borders of regions and ends of visible lines are within it, and what
  * is narrower may be left out. In perspective the image plane passes through the farthest point of the
  * model, parallel to its bounding box's middle; the eye must have all of the box before it.
  *
- * Faces that pierce or touch each other within a cell of the map are told in one warning and by
- * NumberOfPiercingPairs: the border between their regions is not exact there. Faces that can't be used
+ * Where different faces pierce each other, their intersection curves are found and border the regions
+ * (FaceIntersections.h says which curves are). Faces that still pierce or touch each other within a cell
+ * of the map are told in one warning and by NumberOfPiercingPairs: the border between their regions is
+ * not exact there. Faces that can't be used
  * hide nothing and are named in one warning. A view that is not valid, or an input without NURBS
  * arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
  * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.
@@ -95,6 +97,15 @@ public:
   vtkSetMacro(BothSides, bool);
   vtkGetMacro(BothSides, bool);
   vtkBooleanMacro(BothSides, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether output 1 has the curves in which faces pierce each other. Default on.
+   */
+  vtkSetMacro(Intersections, bool);
+  vtkGetMacro(Intersections, bool);
+  vtkBooleanMacro(Intersections, bool);
   ///@}
 
   ///@{
@@ -174,6 +185,7 @@ private:
   double ViewUp[3] = { 0.0, 0.0, 1.0 };
   int Region = VISIBLE_REGION;
   bool BothSides = true;
+  bool Intersections = true;
   bool HiddenLines = true;
   bool ProjectLines = false;
   bool Clustering = true;

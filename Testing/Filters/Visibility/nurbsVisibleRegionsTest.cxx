@@ -123,3 +123,62 @@ TEST(VisibleRegions, Ball)
     ball.Check(1e-3, 60);
   }
 }
+
+TEST(VisibleRegions, Teapot)
+{
+  for (const Viewer& viewer : { Views[0], Views[1], Views[2], Views[4], Views[5] })
+  {
+    Case teapot;
+    nurbs::AddTeapot(teapot.Builder);
+    teapot.Run(viewer, 1e-3);
+    teapot.Check(1e-3, 80);
+    EXPECT_EQ(teapot.Result.Piercing.size(), 0u);
+  }
+}
+
+// Two unit spheres; the second one's middle is given.
+struct TwoSpheres : Case
+{
+  explicit TwoSpheres(const Vec3& middle)
+  {
+    nurbs::AddSphere(this->Builder, 1.0);
+    const std::size_t first = this->Builder.Data.Points.size();
+    nurbs::AddSphere(this->Builder, 1.0);
+    for (std::size_t k = first; k < this->Builder.Data.Points.size(); k += 3)
+    {
+      Eigen::Map<Vec3>(this->Builder.Data.Points.data() + k) += middle;
+    }
+  }
+};
+
+TEST(VisibleRegions, PiercingSpheres)
+{
+  for (const Viewer& viewer : Views)
+  {
+    for (const double precision : { 1e-4 })
+    {
+      TwoSpheres spheres(Vec3(0.5, -0.3, 0.6));
+      spheres.Run(viewer, precision);
+      spheres.Check(precision, 80);
+      EXPECT_EQ(spheres.Result.Piercing.size(), 0u);
+    }
+  }
+}
+
+TEST(VisibleRegions, AreaOfPiercingSpheres)
+{
+  const Vec3 middle(0.5, -0.3, 0.6);
+  const Vec3 across = middle.cross(Vec3(1.0, 0.2, 0.0)).normalized();
+  for (const double precision : { 1e-3 })
+  {
+    // From the side, half of what is outside of the other one is visible of both: 2 pi (1 + d / 2) each.
+    TwoSpheres spheres(middle);
+    spheres.Run(Direction(across[0], across[1], across[2]), precision);
+    const double exact = 2.0 * PI * (1.0 + 0.5 * middle.norm());
+    EXPECT_NEAR(spheres.VisibleArea(), exact, 5.0 * precision);
+    // Along the axis, the rear one hides behind the front one's half.
+    TwoSpheres behind(middle);
+    behind.Run(Direction(middle[0], middle[1], middle[2]), precision);
+    EXPECT_NEAR(behind.VisibleArea(), 2.0 * PI, 50.0 * precision);
+  }
+}
