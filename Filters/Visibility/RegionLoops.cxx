@@ -321,7 +321,8 @@ void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) con
         this->Map.At(this->Lines.Lines, source, ends[1]));
     if (!line.IsEdge())
     {
-      out.push_back({ &source, -1, ParametersAt(line, middle, this->FaceIndex), line.Edge < 0 ? 1.0 : 4.0 });
+      out.push_back(
+        { &source, -1, ParametersAt(line, middle, this->FaceIndex), line.Edge < 0 ? 1.0 : 4.0 });
       continue;
     }
     RegionPiece piece;
@@ -478,7 +479,10 @@ void RegionLifter::AddShadow(
     const Vec2 seed = this->Seed(steps[k].Half);
     if (k == begin)
     {
-      lift(seed, seed, sheet, before);
+      // What is seen beside may be far off where there is no room; the border comes from near.
+      const bool isFirst = out.empty();
+      lift(
+        seed, isFirst ? seed : EndOfPiece(this->Lines.Whole.Data, out.back(), true), sheet, before);
       piece.Polyline.push_back(before.UV);
     }
     ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
@@ -605,15 +609,13 @@ RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
   {
     steps.push_back(this->Classify(half));
   }
-  // Start where a piece starts.
-  for (std::size_t k = 1; k < steps.size(); ++k)
+  // Start where a piece starts, an own one if there is any: shadows start where the one before ends.
+  std::size_t start = 0;
+  for (std::size_t k = 1; k < steps.size() && (start == 0 || steps[start].IsShadow); ++k)
   {
-    if (!this->Continues(steps[k - 1], steps[k]))
-    {
-      std::rotate(steps.begin(), steps.begin() + std::ptrdiff_t(k), steps.end());
-      break;
-    }
+    start = this->Continues(steps[k - 1], steps[k]) ? start : k;
   }
+  std::rotate(steps.begin(), steps.begin() + std::ptrdiff_t(start), steps.end());
   RegionLoop out;
   for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
