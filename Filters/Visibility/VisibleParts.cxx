@@ -108,6 +108,11 @@ bool PartFinder::IsHidden(const ViewLine& line, LinePosition at, const Vec2& ima
     return false;
   }
   bool isNeighbour = this->Clusters.Cluster[line.Face] == this->Clusters.Cluster[hit.Face];
+  if (line.IsIntersection())
+  {
+    isNeighbour =
+      isNeighbour || this->Clusters.Cluster[line.OtherFace] == this->Clusters.Cluster[hit.Face];
+  }
   for (std::size_t k = 0; line.IsEdge() && k < this->Lines.Uses[line.Edge].size(); ++k)
   {
     const std::int64_t face = this->Lines.Uses[line.Edge][k].Face;
