@@ -3,8 +3,8 @@
 // One line a view: hits that agree, that disagree within the precision of a border of their face's
 // regions (in the image, as seen there) or of any regions ("narrow": what is narrower than the precision
 // may be left out), within ten times that ("near"), and wrong ones. Exit status
-// 3 if there is a near or wrong one. With --area-lines N the visible area of closed solids by rays
-// (AreaByLines.h, N and 2 N lines a knot span) beside the sum of VisibleArea. See --help.
+// 3 if there is a near or wrong one. With --area T the visible area of closed solids by rays
+// (AreaByLines.h, to T of it, scanned twice) beside the sum of VisibleArea. See --help.
 #include "AreaByLines.h"
 #include "Measuring.h"
 #include "ModelExtent.h"
@@ -53,7 +53,8 @@ struct Options
   double Rays = 1e6;
   bool Hidden = false;
   int List = 0;
-  int AreaLines = 0;
+  double Area = 0.0;
+  int Scan = 100;
   int Threads = 0;
 };
 
@@ -160,6 +161,7 @@ public:
     for (const std::string& error : regions.FaceErrors)
     {
       failed += error.empty() ? 0 : 1;
+      error.empty() ? 0 : std::printf("  a face of the output: %s\n", error.c_str());
     }
     std::vector<std::int64_t> sources;
     for (const double number : Gather(regions, SourceFace))
@@ -175,7 +177,7 @@ public:
       static_cast<std::int64_t>(this->Given.Rays), static_cast<std::size_t>(this->Given.List));
     this->Print(
       name, isEye, regions.Model.Faces.size(), failed, seconds, check, checking.Read().Elapsed);
-    if (this->Given.AreaLines > 0)
+    if (this->Given.Area > 0.0)
     {
       this->CompareArea(regions, view);
     }
@@ -190,14 +192,16 @@ private:
     const std::string model = this->Given.Shape.empty()
       ? std::filesystem::path(this->Given.File).filename().string()
       : this->Given.Shape;
-    std::printf("%-24s %s %-14s %6zu faces %6zu with regions (%zu bad)  %8.3f s | rays %lld hits "
-                "%lld agree %lld within %lld narrow %lld NEAR %lld WRONG %lld (on faces without region %lld) "
-                "worst %.3g precisions | %.1f s\n",
+    std::printf(
+      "%-24s %s %-14s %6zu faces %6zu with regions (%zu bad)  %8.3f s | rays %lld hits "
+      "%lld agree %lld within %lld narrow %lld NEAR %lld WRONG %lld (on faces without region %lld) "
+      "worst %.3g precisions | %.1f s\n",
       model.c_str(), isEye ? "eye" : "view", name.c_str(), this->Source.Model.Faces.size(), regions,
       failed, seconds, static_cast<long long>(check.Rays), static_cast<long long>(check.Hits),
       static_cast<long long>(check.Agree), static_cast<long long>(check.Within),
-      static_cast<long long>(check.Narrow), static_cast<long long>(check.Near), static_cast<long long>(check.Wrong),
-      static_cast<long long>(check.MissedFaces), check.Worst, checking);
+      static_cast<long long>(check.Narrow), static_cast<long long>(check.Near),
+      static_cast<long long>(check.Wrong), static_cast<long long>(check.MissedFaces), check.Worst,
+      checking);
     for (const truth::Disagreement& one : check.List)
     {
       std::printf("  face %lld (FaceId %lld) uv %.9g %.9g point %.9g %.9g %.9g is %s, %.3g "
@@ -216,14 +220,17 @@ private:
     {
       ours += area;
     }
-    const int n = this->Given.AreaLines;
+    const double tolerance = this->Given.Area * ours / double(this->Source.Model.Faces.size());
     for (std::size_t f = 0; f < this->Source.Model.Faces.size(); ++f)
     {
       const auto face = static_cast<std::int64_t>(f);
-      coarse += truth::AreaByLines(*this->Caster, face, view, n, 48, vtkNURBSParallelFor);
-      fine += truth::AreaByLines(*this->Caster, face, view, 2 * n, 48, vtkNURBSParallelFor);
+      coarse += truth::AreaByLines(
+        *this->Caster, face, view, 10.0 * tolerance, this->Given.Scan / 2 + 1, vtkNURBSParallelFor);
+      fine += truth::AreaByLines(
+        *this->Caster, face, view, tolerance, this->Given.Scan, vtkNURBSParallelFor);
     }
-    std::printf("  visible area %.10g, by rays %.10g (half as many lines: %.2e off), difference "
+    std::printf("  visible area %.10g, by rays %.10g (ten times as coarse, half as many points: "
+                "%.2e off), difference "
                 "%.2e of it\n",
       ours, fine, (coarse - fine) / fine, (ours - fine) / fine);
   }
@@ -251,7 +258,9 @@ int main(int argc, char** argv)
   app.add_option("--rays", options.Rays)->capture_default_str();
   app.add_flag("--hidden", options.Hidden, "the hidden regions instead of the visible ones");
   app.add_option("--list", options.List, "disagreements to list");
-  app.add_option("--area-lines", options.AreaLines, "compare the area of a closed solid, too");
+  app.add_option("--area", options.Area, "compare the area of a closed solid, to this part of it");
+  app.add_option("--scan", options.Scan, "points a knot span that the area is scanned at")
+    ->capture_default_str();
   app.add_option("--threads", options.Threads, "0: as many as there are");
   CLI11_PARSE(app, argc, argv);
   if (options.Threads > 0)
