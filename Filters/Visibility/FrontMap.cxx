@@ -34,6 +34,15 @@ void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, Fro
       const Vec2 grid = (ImageAt(line, at) - map.Center) / map.Pixel;
       points.push_back({ std::llround(grid[0]), std::llround(grid[1]) });
     };
+    if (part.IsSnapped)
+    {
+      const auto first = std::int32_t(points.size());
+      points.insert(points.end(), part.Ends, part.Ends + 2);
+      segments.push_back({ first, first + 1 });
+      map.Segments.push_back(part);
+      ++map.FirstSegment[part.Line + 1];
+      continue;
+    }
     addPoint(part.From);
     for (LinePosition at = part.From; at < part.To;)
     {
@@ -41,7 +50,10 @@ void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, Fro
       addPoint(next);
       const auto last = std::int32_t(points.size() - 1);
       segments.push_back({ last - 1, last });
-      map.Segments.push_back({ part.Line, at, next });
+      map.Segments.emplace_back();
+      map.Segments.back().Line = part.Line;
+      map.Segments.back().From = at;
+      map.Segments.back().To = next;
       ++map.FirstSegment[part.Line + 1];
       at = next;
     }
@@ -129,14 +141,21 @@ LinePosition FrontMap::At(
   const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const
 {
   const LinePart& segment = this->Segments[source.Segment];
+  for (int end = 0; end < 2 && segment.IsSnapped; ++end)
+  {
+    if (this->Snapped.Vertices[vertex] == segment.Ends[end] || segment.From == segment.To)
+    {
+      return end == 0 ? segment.From : segment.To;
+    }
+  }
   const Vec2 a = ImageAt(lines[source.Line], segment.From);
   const Vec2 along = ImageAt(lines[source.Line], segment.To) - a;
   const double share = along.dot(this->VertexImage(vertex) - a) / along.squaredNorm();
   // Within a pixel's reach of an end of the segment it is the end.
-  const double reach = this->Pixel / along.norm();
-  return share < reach    ? segment.From
-    : share > 1.0 - reach ? segment.To
-                          : segment.From + share * (segment.To - segment.From);
+  const double reach = std::min(0.5, this->Pixel / along.norm());
+  return share < reach     ? segment.From
+    : share >= 1.0 - reach ? segment.To
+                           : segment.From + share * (segment.To - segment.From);
 }
 
 std::vector<LinePart> LinesInView(const ViewLines& lines)
@@ -146,7 +165,9 @@ std::vector<LinePart> LinesInView(const ViewLines& lines)
   {
     if (!lines.Lines[l].IsBehind)
     {
-      out.push_back({ std::int32_t(l), 0.0, double(lines.Lines[l].Points.size() - 1) });
+      out.emplace_back();
+      out.back().Line = std::int32_t(l);
+      out.back().To = double(lines.Lines[l].Points.size() - 1);
     }
   }
   return out;
@@ -200,8 +221,9 @@ FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts
   return map;
 }
 
-LineWalk::LineWalk(const FrontMap& map)
-  : Map(map)
+LineWalk::LineWalk(const std::vector<ViewLine>& lines, const FrontMap& map)
+  : Lines(lines)
+  , Map(map)
   , Degree(map.Snapped.Vertices.size(), 0)
 {
   for (const auto& ends : map.Snapped.Edges)
@@ -231,16 +253,32 @@ std::vector<LineStep> LineWalk::Steps(std::int64_t line) const
   return out;
 }
 
-LinePosition LineWalk::Start(const std::vector<ViewLine>& lines, const LineStep& step) const
+LinePosition LineWalk::Start(const LineStep& step) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
-  return this->Map.At(lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 1 : 0]);
+  return this->Map.At(
+    this->Lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 1 : 0]);
 }
 
-LinePosition LineWalk::End(const std::vector<ViewLine>& lines, const LineStep& step) const
+LinePosition LineWalk::End(const LineStep& step) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
-  return this->Map.At(lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 0 : 1]);
+  return this->Map.At(
+    this->Lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 0 : 1]);
+}
+
+// True if a silhouette ends on the line after the middle of the one step and before that of the next.
+bool LineWalk::TurnsBetween(const LineStep& before, const LineStep& step) const
+{
+  const std::vector<LinePosition>& turns = this->Lines[this->Map.Sources[step.Source].Line].Turns;
+  if (turns.empty())
+  {
+    return false;
+  }
+  const auto middle = [&](
+                        const LineStep& one) { return 0.5 * (this->Start(one) + this->End(one)); };
+  const auto next = std::lower_bound(turns.begin(), turns.end(), middle(before));
+  return next != turns.end() && *next < middle(step);
 }
 
 std::size_t LineWalk::GroupEnd(const std::vector<LineStep>& steps, std::size_t first) const
@@ -251,6 +289,7 @@ std::size_t LineWalk::GroupEnd(const std::vector<LineStep>& steps, std::size_t f
     const LineStep& step = steps[last];
     const int start = this->Map.Sources[step.Source].Backward ? 1 : 0;
     if (this->Degree[this->Map.Snapped.Edges[step.Edge][start]] != 2 ||
+      this->TurnsBetween(steps[last - 1], step) ||
       this->Cell(step, 0) != this->Cell(steps[first], 0) ||
       this->Cell(step, 1) != this->Cell(steps[first], 1))
     {
@@ -412,7 +451,7 @@ public:
     , Image(image)
     , Caster(caster)
     , Map(map)
-    , Walk(map)
+    , Walk(lines.Lines, map)
   {}
 
   void Find(std::int64_t line);

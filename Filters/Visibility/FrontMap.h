@@ -29,7 +29,11 @@ struct FrontHit
 struct LinePart
 {
   std::int32_t Line = -1;
-  LinePosition From = 0.0, To = 0.0; ///< From < To.
+  LinePosition From = 0.0, To = 0.0; ///< From <= To.
+  /// It is an edge of another map of the same lines, and runs straight between these vertices of it, so
+  /// that what met there meets again.
+  bool IsSnapped = false;
+  GridPoint Ends[2];
 };
 
 /// A line that runs along an edge of the map.
@@ -102,7 +106,7 @@ struct LineStep
 class LineWalk
 {
 public:
-  explicit LineWalk(const FrontMap& map);
+  LineWalk(const std::vector<ViewLine>& lines, const FrontMap& map);
 
   /// All steps of a line, in order.
   std::vector<LineStep> Steps(std::int64_t line) const;
@@ -116,17 +120,20 @@ public:
     return this->Map.Cell(step.Edge, this->Side(step, lineSide));
   }
   /// Positions of a step's ends on its line.
-  LinePosition Start(const std::vector<ViewLine>& lines, const LineStep& step) const;
-  LinePosition End(const std::vector<ViewLine>& lines, const LineStep& step) const;
+  LinePosition Start(const LineStep& step) const;
+  LinePosition End(const LineStep& step) const;
   /// The end of the steps from `first` on along which nothing changes beside the line: no other line
-  /// meets it. (A line may become hidden where its cell goes on: all lines touch the silhouette at
-  /// which they turn away.)
+  /// meets it, and no silhouette ends on it. (A line may become hidden where its cell goes on: all
+  /// lines touch the silhouette at which they turn away.)
   std::size_t GroupEnd(const std::vector<LineStep>& steps, std::size_t first) const;
   /// The step of a group where there is most room on a side; about the middle one if there is enough.
   const LineStep& Widest(
     const std::vector<LineStep>& steps, std::size_t first, std::size_t last, int lineSide) const;
 
 private:
+  bool TurnsBetween(const LineStep& before, const LineStep& step) const;
+
+  const std::vector<ViewLine>& Lines;
   const FrontMap& Map;
   std::vector<std::int32_t> Degree; // Edges at each vertex.
 };

@@ -195,6 +195,14 @@ void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& lin
     line.Shares.insert(above, end.Share);
     line.Points.insert(line.Points.begin() + k, point);
   }
+  for (std::size_t k = 0; k < line.Shares.size(); ++k)
+  {
+    if (std::any_of(ends.begin(), ends.end(),
+          [&](const EdgeEnd& end) { return std::abs(end.Share - line.Shares[k]) < SameShare; }))
+    {
+      line.Turns.push_back(double(k));
+    }
+  }
 }
 
 // One image for what is one point: ends of edges at a vertex, of silhouettes that go on in each other
@@ -307,7 +315,7 @@ ViewLines MakeViewLines(const Model& model, const std::vector<std::string>& face
       if (!out.Uses[e].empty() && !IsDegenerate(out.Whole.Data.Edges[e]))
       {
         out.Lines[first + e] = MakeEdgeLine(out, e, options);
-        InsertEnds(out, std::move(ends[e]), out.Lines[first + e]);
+        InsertEnds(out, ends[e], out.Lines[first + e]);
         out.Lines[first + e].MeetsSilhouette = meets[e] != 0;
       }
     }

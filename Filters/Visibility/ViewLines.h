@@ -9,6 +9,9 @@
 namespace nurbs
 {
 
+/// A point on a line: segment + share of that segment.
+using LinePosition = double;
+
 /// A polyline on a face or an edge, and its image.
 struct ViewLine
 {
@@ -20,6 +23,8 @@ struct ViewLine
   std::vector<ContourPoint> Points;
   /// Edges: shares of every use's trim curve, 0 at its Domain().Min, that belong to the points.
   std::vector<double> Shares;
+  /// Edges: where silhouettes end on it, increasing; the face beside it turns away there.
+  std::vector<LinePosition> Turns;
   std::vector<Vec2> Image;
   /// Edges: a silhouette runs along it, or ends on it but at its ends.
   bool MeetsSilhouette = false;
@@ -28,9 +33,6 @@ struct ViewLine
 
   bool IsEdge() const { return !this->Shares.empty(); }
 };
-
-/// A point on a line: Segment + share of that segment.
-using LinePosition = double;
 
 /// What the lines are made of.
 struct ViewLines

@@ -59,14 +59,14 @@ bool IsInner(const ViewLines& lines, const ViewLine& line, const Viewer& viewer)
 class PartFinder
 {
 public:
-  PartFinder(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
-    const FrontMap& map, double pixel)
+  PartFinder(const ViewLines& lines, const FaceClusters& clusters, const ImagePlane& image,
+    const RayCaster& caster, const FrontMap& map)
     : Lines(lines)
+    , Clusters(clusters)
     , Image(image)
     , Caster(caster)
     , Map(map)
-    , Walk(map)
-    , Pixel(pixel)
+    , Walk(lines.Lines, map)
   {
     std::vector<Box3> boxes;
     for (const auto& ends : map.Snapped.Edges)
@@ -76,7 +76,7 @@ public:
       boxes.emplace_back(
         Vec3(box.min()[0], box.min()[1], 0.0), Vec3(box.max()[0], box.max()[1], 0.0));
     }
-    this->Tree.Build(boxes, pixel);
+    this->Tree.Build(boxes, map.Pixel);
   }
 
   void FindOfContour(std::int64_t line, std::vector<LinePart>& out) const;
@@ -84,34 +84,52 @@ public:
 
 private:
   bool IsHidden(const ViewLine& line, LinePosition at, const Vec2& image) const;
+  bool IsHidden(const ViewLine& line, LinePosition at) const;
   void AddCrossings(
     const ViewLine& line, std::size_t segment, std::vector<LinePosition>& out) const;
   void Add(std::int64_t line, LinePosition from, LinePosition to, std::vector<LinePart>& out) const;
 
   const ViewLines& Lines;
+  const FaceClusters& Clusters;
   const ImagePlane& Image;
   const RayCaster& Caster;
   const FrontMap& Map;
   LineWalk Walk;
-  double Pixel;
   BoxTree Tree;
 };
 
 // True if something else is clearly in front of a line's point, seen at an image point on or beside it.
+// A neighbour in the cluster may be in front beside the line: a narrow face may lie between them.
 bool PartFinder::IsHidden(const ViewLine& line, LinePosition at, const Vec2& image) const
 {
   const FrontHit hit = LookAt(this->Caster, this->Image, image);
-  return hit.Face >= 0 && !IsOfFace(this->Lines, line, hit.Face) &&
-    this->Image.Depth(hit.Point) < this->Image.Depth(PointAt(line, at)) - DepthMargin * this->Pixel;
+  if (hit.Face < 0 || IsOfFace(this->Lines, line, hit.Face))
+  {
+    return false;
+  }
+  bool isNeighbour = this->Clusters.Cluster[line.Face] == this->Clusters.Cluster[hit.Face];
+  for (std::size_t k = 0; line.IsEdge() && k < this->Lines.Uses[line.Edge].size(); ++k)
+  {
+    const std::int64_t face = this->Lines.Uses[line.Edge][k].Face;
+    isNeighbour = isNeighbour || this->Clusters.Cluster[face] == this->Clusters.Cluster[hit.Face];
+  }
+  const double inFront = this->Image.Depth(PointAt(line, at)) - this->Image.Depth(hit.Point);
+  return inFront > DepthMargin * this->Map.Pixel && !isNeighbour;
 }
 
-// Adds a part, longer by the overlap, or makes the last one longer.
+// The same at the point's own image.
+bool PartFinder::IsHidden(const ViewLine& line, LinePosition at) const
+{
+  return this->IsHidden(line, at, this->Image.Project(ExactPointAt(this->Lines, line, at).Point));
+}
+
+// Adds a part of an inner line, longer by the overlap, or makes the last one longer.
 void PartFinder::Add(
   std::int64_t index, LinePosition from, LinePosition to, std::vector<LinePart>& out) const
 {
   const ViewLine& line = this->Lines.Lines[index];
   const auto reach = [&](LinePosition at, int step) {
-    double left = Overlap * this->Pixel;
+    double left = Overlap * this->Map.Pixel;
     const double end = step < 0 ? 0.0 : double(line.Points.size() - 1);
     while (at != end && left > 0.0)
     {
@@ -130,7 +148,10 @@ void PartFinder::Add(
   }
   else
   {
-    out.push_back({ std::int32_t(index), from, to });
+    out.emplace_back();
+    out.back().Line = std::int32_t(index);
+    out.back().From = from;
+    out.back().To = to;
   }
 }
 
@@ -141,19 +162,26 @@ void PartFinder::FindOfContour(std::int64_t index, std::vector<LinePart>& out) c
   for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
     last = this->Walk.GroupEnd(steps, first);
-    bool hidden = true;
+    const LineStep& inside = steps[first + (last - first) / 2];
+    bool hidden = this->IsHidden(line, 0.5 * (this->Walk.Start(inside) + this->Walk.End(inside)));
     for (int lineSide = 0; lineSide < 2 && hidden; ++lineSide)
     {
       const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
-      const LinePosition at =
-        0.5 * (this->Walk.Start(this->Lines.Lines, best) + this->Walk.End(this->Lines.Lines, best));
+      const LinePosition at = 0.5 * (this->Walk.Start(best) + this->Walk.End(best));
       hidden =
         this->IsHidden(line, at, this->Map.Beside(best.Edge, this->Walk.Side(best, lineSide)));
     }
-    if (!hidden)
+    for (std::size_t k = first; k < last && !hidden; ++k)
     {
-      this->Add(index, this->Walk.Start(this->Lines.Lines, steps[first]),
-        this->Walk.End(this->Lines.Lines, steps[last - 1]), out);
+      const auto& ends = this->Map.Snapped.Edges[steps[k].Edge];
+      LinePart part;
+      part.Line = std::int32_t(index);
+      part.From = this->Walk.Start(steps[k]);
+      part.To = std::max(part.From, this->Walk.End(steps[k]));
+      part.IsSnapped = true;
+      part.Ends[this->Walk.Side(steps[k], 0)] = this->Map.Snapped.Vertices[ends[0]];
+      part.Ends[this->Walk.Side(steps[k], 1)] = this->Map.Snapped.Vertices[ends[1]];
+      out.push_back(part);
     }
   }
 }
@@ -177,7 +205,7 @@ void PartFinder::AddCrossings(
     const Vec2 q = this->Map.VertexImage(ends[1]) - a;
     const double slope = cross(along, q - p);
     // An edge that starts or ends near the line counts as crossed.
-    const double reach = this->Pixel / (q - p).norm();
+    const double reach = this->Map.Pixel / (q - p).norm();
     const double onEdge = slope == 0.0 ? -1.0 : cross(p, along) / slope;
     if (onEdge >= -reach && onEdge <= 1.0 + reach)
     {
@@ -198,7 +226,7 @@ void PartFinder::FindOfInner(std::int64_t index, std::vector<LinePart>& out) con
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
   {
     const LinePosition middle = 0.5 * (cuts[k] + cuts[k + 1]);
-    if (cuts[k] < cuts[k + 1] && !this->IsHidden(line, middle, ImageAt(line, middle)))
+    if (cuts[k] < cuts[k + 1] && !this->IsHidden(line, middle))
     {
       this->Add(index, cuts[k], cuts[k + 1], out);
     }
@@ -207,53 +235,48 @@ void PartFinder::FindOfInner(std::int64_t index, std::vector<LinePart>& out) con
 
 } // namespace
 
-std::vector<char> FindInnerLines(const ViewLines& lines, const Viewer& viewer)
+FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer)
 {
-  std::vector<char> out(lines.Lines.size(), 0);
+  FaceClusters out;
+  out.IsInner.assign(lines.Lines.size(), 0);
+  out.Cluster.resize(lines.Whole.Data.Faces.size());
+  std::iota(out.Cluster.begin(), out.Cluster.end(), 0);
+  const auto find = [&](std::int64_t f) {
+    while (out.Cluster[f] != f)
+    {
+      f = out.Cluster[f] = out.Cluster[out.Cluster[f]];
+    }
+    return f;
+  };
   for (std::size_t l = 0; l < lines.Lines.size(); ++l)
   {
     const ViewLine& line = lines.Lines[l];
-    out[l] = line.IsEdge() && !line.IsBehind && IsInner(lines, line, viewer);
+    out.IsInner[l] = line.IsEdge() && !line.IsBehind && IsInner(lines, line, viewer);
+    if (out.IsInner[l])
+    {
+      const std::int64_t a = find(lines.Uses[line.Edge][0].Face);
+      const std::int64_t b = find(lines.Uses[line.Edge][1].Face);
+      out.Cluster[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (std::size_t f = 0; f < out.Cluster.size(); ++f)
+  {
+    out.Cluster[f] = find(std::int64_t(f));
+    out.Count += out.Cluster[f] == std::int64_t(f);
   }
   return out;
 }
 
-std::int64_t CountClusters(const ViewLines& lines, const std::vector<char>& isInner)
-{
-  std::vector<std::int64_t> parent(lines.Whole.Data.Faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](std::int64_t f) {
-    while (parent[f] != f)
-    {
-      f = parent[f] = parent[parent[f]];
-    }
-    return f;
-  };
-  auto count = std::int64_t(parent.size());
-  for (std::size_t l = 0; l < lines.Lines.size(); ++l)
-  {
-    if (isInner[l])
-    {
-      const std::vector<EdgeUse>& uses = lines.Uses[lines.Lines[l].Edge];
-      const std::int64_t a = find(uses[0].Face);
-      const std::int64_t b = find(uses[1].Face);
-      parent[a] = b;
-      count -= a != b;
-    }
-  }
-  return count;
-}
-
-std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const std::vector<char>& isInner,
+std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const FaceClusters& clusters,
   const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
   const std::function<bool(double)>& progress)
 {
   std::vector<LinePart> contours = LinesInView(lines);
   contours.erase(std::remove_if(contours.begin(), contours.end(),
-                   [&](const LinePart& part) { return isInner[part.Line] != 0; }),
+                   [&](const LinePart& part) { return clusters.IsInner[part.Line] != 0; }),
     contours.end());
   const FrontMap map = MakeLineMap(lines, contours, pixel, parallel);
-  const PartFinder finder(lines, image, caster, map, pixel);
+  const PartFinder finder(lines, clusters, image, caster, map);
   const auto count = std::int64_t(lines.Lines.size());
   std::vector<std::vector<LinePart>> parts(count);
   std::atomic<std::int64_t> done{ 0 };
@@ -261,7 +284,7 @@ std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const std::vector
   parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t l = begin; l < end && goOn; ++l)
     {
-      if (isInner[l])
+      if (clusters.IsInner[l])
       {
         finder.FindOfInner(l, parts[l]);
       }

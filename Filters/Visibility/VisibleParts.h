@@ -15,15 +15,18 @@
 namespace nurbs
 {
 
-/// One a line: true for inner lines of clusters.
-std::vector<char> FindInnerLines(const ViewLines& lines, const Viewer& viewer);
+struct FaceClusters
+{
+  std::vector<char> IsInner;         ///< One a line: it is an inner line of a cluster.
+  std::vector<std::int64_t> Cluster; ///< One a face: the lowest face of its cluster.
+  std::int64_t Count = 0;            ///< Of clusters; a face alone is one, too.
+};
 
-/// The number of clusters: of sets of faces that are connected by inner lines.
-std::int64_t CountClusters(const ViewLines& lines, const std::vector<char>& isInner);
+FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer);
 
 /// The parts of lines that are not surely hidden, by line and in order, for MakeFrontMap. Empty if
 /// `progress` says no.
-std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const std::vector<char>& isInner,
+std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const FaceClusters& clusters,
   const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
   const std::function<bool(double)>& progress);
 

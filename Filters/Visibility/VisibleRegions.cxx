@@ -85,9 +85,9 @@ bool RegionMaker::MakeLines()
 
 std::vector<LinePart> RegionMaker::PartsInView(double pixel)
 {
-  const std::vector<char> isInner = FindInnerLines(this->Out.Lines, this->Image.GetViewer());
-  this->Out.Clusters = CountClusters(this->Out.Lines, isInner);
-  return FindVisibleParts(this->Out.Lines, isInner, this->Image, this->Caster, pixel,
+  const FaceClusters clusters = FindClusters(this->Out.Lines, this->Image.GetViewer());
+  this->Out.Clusters = clusters.Count;
+  return FindVisibleParts(this->Out.Lines, clusters, this->Image, this->Caster, pixel,
     this->Options.Parallel,
     [&](double done) { return this->Report(LinesDone + (PartsDone - LinesDone) * done); });
 }
