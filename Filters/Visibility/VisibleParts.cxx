@@ -84,7 +84,7 @@ public:
 
 private:
   bool IsHidden(const ViewLine& line, LinePosition at, const Vec2& image) const;
-  bool IsHidden(const ViewLine& line, LinePosition at) const;
+  bool IsHidden(const ViewLine& line, LinePosition from, LinePosition to) const;
   void AddCrossings(
     const ViewLine& line, std::size_t segment, std::vector<LinePosition>& out) const;
   void Add(std::int64_t line, LinePosition from, LinePosition to, std::vector<LinePart>& out) const;
@@ -117,10 +117,19 @@ bool PartFinder::IsHidden(const ViewLine& line, LinePosition at, const Vec2& ima
   return inFront > DepthMargin * this->Map.Pixel && !isNeighbour;
 }
 
-// The same at the point's own image.
-bool PartFinder::IsHidden(const ViewLine& line, LinePosition at) const
+// The same at three points of a part, at their own images. One would do, if nothing pierced anything.
+bool PartFinder::IsHidden(const ViewLine& line, LinePosition from, LinePosition to) const
 {
-  return this->IsHidden(line, at, this->Image.Project(ExactPointAt(this->Lines, line, at).Point));
+  for (const double share : { 0.5, 0.1, 0.9 })
+  {
+    const LinePosition at = from + share * (to - from);
+    const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+    if (!this->IsHidden(line, at, this->Image.Project(point)))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Adds a part of an inner line, longer by the overlap, or makes the last one longer.
@@ -162,8 +171,8 @@ void PartFinder::FindOfContour(std::int64_t index, std::vector<LinePart>& out) c
   for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
     last = this->Walk.GroupEnd(steps, first);
-    const LineStep& inside = steps[first + (last - first) / 2];
-    bool hidden = this->IsHidden(line, 0.5 * (this->Walk.Start(inside) + this->Walk.End(inside)));
+    bool hidden =
+      this->IsHidden(line, this->Walk.Start(steps[first]), this->Walk.End(steps[last - 1]));
     for (int lineSide = 0; lineSide < 2 && hidden; ++lineSide)
     {
       const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
@@ -225,8 +234,7 @@ void PartFinder::FindOfInner(std::int64_t index, std::vector<LinePart>& out) con
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
   {
-    const LinePosition middle = 0.5 * (cuts[k] + cuts[k + 1]);
-    if (cuts[k] < cuts[k + 1] && !this->IsHidden(line, middle))
+    if (cuts[k] < cuts[k + 1] && !this->IsHidden(line, cuts[k], cuts[k + 1]))
     {
       this->Add(index, cuts[k], cuts[k + 1], out);
     }

@@ -34,7 +34,8 @@ set(nurbs_vtk_components
   RenderingUI
   WrappingPythonCore
   Python
-  opengl)
+  opengl
+  pugixml)
 
 if (NOT NURBS_VTK_FLAVOUR MATCHES "^(auto|paraview|plain)$")
   message(FATAL_ERROR "NURBS_VTK_FLAVOUR is '${NURBS_VTK_FLAVOUR}'; use auto, paraview or plain")

@@ -7,7 +7,20 @@ endif ()
 # Only what the plugin links: ParaView as a whole would ask for more development files than Debian's
 # package brings (Documentation/decisions/vtk-of-paraview.md).
 set(ParaView_DIR "${NURBS_PARAVIEW_SDK}")
-find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews)
+set(paraview_components RemotingViews)
+if (NURBS_PARAVIEW_WIDGETS)
+  list(APPEND paraview_components pqComponents)
+  find_package(Qt5 REQUIRED COMPONENTS Widgets)
+  find_package(Boost REQUIRED)
+  find_package(LibXml2 REQUIRED)
+  # ParaView's Qt libraries name these in their link interfaces; nothing here includes their headers.
+  foreach (target NetCDF::NetCDF Qt5::OpenGL hdf5::hdf5 hdf5::hdf5_hl)
+    if (NOT TARGET "${target}")
+      add_library("${target}" INTERFACE IMPORTED)
+    endif ()
+  endforeach ()
+endif ()
+find_package(ParaView 5.11 REQUIRED COMPONENTS ${paraview_components})
 message(STATUS "ParaView ${ParaView_VERSION}: ${ParaView_DIR}")
 
 paraview_plugin_scan(

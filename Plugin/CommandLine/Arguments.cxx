@@ -17,7 +17,9 @@ namespace
 {
 
 const char* const Description =
-  "vtknurbs: CAD files as exact trimmed NURBS, as triangles with a certified error, as pictures.\n"
+  "vtknurbs: CAD files as exact trimmed NURBS, as triangles with a certified error, as pictures "
+  "and\n"
+  "engineering drawings.\n"
   "MODEL is a STEP, IGES or BREP file (.step .stp .iges .igs .brep), or a model saved by VTK\n"
   "(.vtu, .vtpc).";
 
@@ -33,6 +35,12 @@ const char* const Examples = R"(Examples:
 
   vtknurbs render linkrods.step -o linkrods.png --view front --size 1920x1080 --edges
       A picture; no display, window or graphics card is needed.
+
+  vtknurbs drawing linkrods.step -o linkrods.pdf --view front --page a4
+      An engineering drawing with hidden lines dashed, as true curves.
+
+  vtknurbs visible linkrods.step -o seen.vtu --view top
+      What is visible from above, as trimmed surfaces again.
 
 'vtknurbs COMMAND --help' tells the options of a command.
 Returns 0 if all went well, 1 after an error, 2 if the command line is wrong, 3 if --strict found
@@ -60,6 +68,34 @@ Examples:
   vtknurbs render gear.step -o gear.png --view 1,-2,0.5 --size 2400x1800 --edges
   vtknurbs render gear.step -o gear.png --pixels 0.1 --transparent)";
 
+const char* const DrawingExamples = R"(Views, as the direction from the object to the viewer, z up:
+  iso (1,-1,1)   front (0,-1,0)   back (0,1,0)   right (1,0,0)   left (-1,0,0)
+  top (0,0,1)    bottom (0,0,-1)  or any x,y,z such as 0.5,-1,0.3
+  Seen from above or below, y is up.
+
+Formats, by the ending of -o:
+  .svg   a group a kind of line, paths that name the faces and edges they show; layers of Inkscape
+  .pdf   one page with a layer a kind of line
+  .vtp   polylines for VTK, in the model's unit, with Visibility, Kind, FaceId and EdgeId
+
+Examples:
+  vtknurbs drawing gear.step -o gear.svg
+  vtknurbs drawing gear.step -o gear.pdf --view front --page a3 --scale 1:2
+  vtknurbs drawing gear.step -o gear.svg --eye 300,-500,200 --no-hidden --smooth)";
+
+const char* const VisibleExamples =
+  R"(The output is a model again, the trims of which are what is visible; faces of which nothing is
+visible are left out. Arrays of its faces: VisibleArea, VisibleFraction. Views are named as for
+'vtknurbs drawing'.
+
+Examples:
+  vtknurbs visible gear.step -o seen.vtu --view front
+  vtknurbs visible gear.step -o unseen.vtu --view 1,-2,0.5 --hidden-regions
+  vtknurbs tessellate seen.vtu -o seen.stl)";
+
+const std::map<std::string, Page> Pages = { { "tight", Page::Tight }, { "a4", Page::A4 },
+  { "a3", Page::A3 }, { "a2", Page::A2 }, { "a1", Page::A1 }, { "a0", Page::A0 } };
+
 const std::map<std::string, Method> Methods = { { "kd-tree", Method::KdTree },
   { "quadtree", Method::QuadTree }, { "binary", Method::Binary } };
 
@@ -83,29 +119,82 @@ std::array<int, 2> ParseSize(const std::string& text)
   return size;
 }
 
-std::array<double, 3> ParseView(const std::string& text)
+// x,y,z
+bool ReadVector(const std::string& text, std::array<double, 3>& vector)
 {
-  const auto named = Views.find(text);
-  if (named != Views.end())
-  {
-    return named->second;
-  }
-  std::array<double, 3> view = { 0, 0, 0 };
   char first = 0, second = 0;
   std::istringstream stream(text);
   const bool read =
-    static_cast<bool>(stream >> view[0] >> first >> view[1] >> second >> view[2]) && stream.eof();
-  const double length = std::hypot(view[0], view[1], view[2]);
-  if (!read || first != ',' || second != ',' || !(length > 0.0) || !std::isfinite(length))
+    static_cast<bool>(stream >> vector[0] >> first >> vector[1] >> second >> vector[2]) &&
+    stream.eof();
+  return read && first == ',' && second == ',' &&
+    std::isfinite(std::hypot(vector[0], vector[1], vector[2]));
+}
+
+// A vector of length 1.
+bool ReadDirection(const std::string& text, std::array<double, 3>& vector)
+{
+  if (!ReadVector(text, vector))
+  {
+    return false;
+  }
+  const double length = std::hypot(vector[0], vector[1], vector[2]);
+  for (double& component : vector)
+  {
+    component /= length;
+  }
+  return length > 0.0;
+}
+
+std::array<double, 3> ParseView(const std::string& text)
+{
+  const auto named = Views.find(text);
+  std::array<double, 3> view = { 0, 0, 0 };
+  if (named == Views.end() && !ReadDirection(text, view))
   {
     throw CLI::ValidationError(
       "--view", "'" + text + "' is neither a view's name (see --help) nor x,y,z such as 1,-1,0.5");
   }
-  for (double& component : view)
+  return named == Views.end() ? view : named->second;
+}
+
+// A number greater than 0, or the quotient of two as in 1:2; "fit" is 0.
+double ParseScale(const std::string& text)
+{
+  if (text == "fit")
   {
-    component /= length;
+    return 0.0;
   }
-  return view;
+  double paper = 0.0, model = 1.0;
+  char colon = ':';
+  std::istringstream stream(text);
+  bool read = static_cast<bool>(stream >> paper);
+  if (read && !stream.eof())
+  {
+    read = static_cast<bool>(stream >> colon >> model) && stream.eof();
+  }
+  const double scale = paper / model;
+  if (!read || colon != ':' || !(paper > 0.0 && model > 0.0) || !std::isfinite(scale))
+  {
+    throw CLI::ValidationError("--scale", "'" + text + "' is not a scale such as 1:2, 0.5 or fit");
+  }
+  return scale;
+}
+
+// "a3", "a3-landscape"
+void ParsePage(const std::string& text, Arguments& arguments)
+{
+  const size_t dash = text.find('-');
+  const auto page = Pages.find(text.substr(0, dash));
+  const std::string lie = dash == std::string::npos ? "" : text.substr(dash + 1);
+  if (page == Pages.end() || (dash != std::string::npos && lie != "landscape" && lie != "portrait"))
+  {
+    throw CLI::ValidationError("--page",
+      "'" + text + "' is not tight, a4, a3, ... or a0, perhaps with -landscape or -portrait");
+  }
+  arguments.Sheet = page->second;
+  arguments.Orientation =
+    lie.empty() ? Lie::Automatic : (lie == "landscape" ? Lie::Landscape : Lie::Portrait);
 }
 
 // A finite number greater than 0.
@@ -247,6 +336,104 @@ void AddRender(CLI::App& app, Arguments& arguments)
   });
 }
 
+// Where a model is seen from, and how exactly.
+void AddViewing(CLI::App* command, Arguments& arguments)
+{
+  const std::string group = "The view";
+  const auto view = [&arguments](const std::string& text) {
+    arguments.View = ParseView(text);
+    arguments.ViewName = text;
+  };
+  const auto eye = [&arguments](const std::string& text) {
+    if (!ReadVector(text, arguments.Eye))
+    {
+      throw CLI::ValidationError("--eye", "'" + text + "' is not x,y,z such as 100,-300,50");
+    }
+    arguments.Perspective = true;
+  };
+  const auto up = [&arguments](const std::string& text) {
+    if (!ReadDirection(text, arguments.Up))
+    {
+      throw CLI::ValidationError("--up", "'" + text + "' is not x,y,z such as 0,1,0");
+    }
+  };
+  CLI::Option* parallel =
+    command
+      ->add_option_function<std::string>("--view", view, "iso (default), front, top, ..., or x,y,z")
+      ->type_name("VIEW")
+      ->group(group);
+  command
+    ->add_option_function<std::string>(
+      "--eye", eye, "perspective, from the point x,y,z of the model's coordinates")
+    ->type_name("x,y,z")
+    ->group(group)
+    ->excludes(parallel);
+  command->add_option_function<std::string>("--up", up, "what points upwards; default 0,0,1")
+    ->type_name("x,y,z")
+    ->group(group);
+  command
+    ->add_option("--precision", arguments.Precision,
+      "largest error as a part of the model's diagonal; default 1e-4")
+    ->type_name("P")
+    ->check(Positive())
+    ->group(group);
+  command
+    ->add_flag_callback(
+      "--one-sided", [&arguments] { arguments.BothSides = false; },
+      "faces seen from behind are not visible, and still hide")
+    ->group(group);
+}
+
+void AddDrawing(CLI::App& app, Arguments& arguments)
+{
+  CLI::App* command =
+    app.add_subcommand("drawing", "draw a model's lines, the hidden ones dashed, as SVG or PDF");
+  AddModel(command, arguments);
+  command->add_option("-o,--output", arguments.Output, "drawing to write (.svg, .pdf or .vtp)")
+    ->type_name("FILE")
+    ->required();
+  AddViewing(command, arguments);
+  const std::string group = "The drawing";
+  CLI::Option* hidden = command->add_flag("--hidden", "draw hidden lines (default)")->group(group);
+  command
+    ->add_flag_callback(
+      "--no-hidden", [&arguments] { arguments.HiddenLines = false; }, "leave hidden lines out")
+    ->group(group)
+    ->excludes(hidden);
+  command->add_flag("--smooth", arguments.SmoothEdges, "draw edges where faces meet smoothly, too")
+    ->group(group);
+  command
+    ->add_option_function<std::string>(
+      "--scale", [&arguments](const std::string& text) { arguments.Scale = ParseScale(text); },
+      "such as 1:2; default fit, to the page or to A4")
+    ->type_name("SCALE")
+    ->group(group);
+  command
+    ->add_option_function<std::string>(
+      "--page", [&arguments](const std::string& text) { ParsePage(text, arguments); },
+      "tight (default), a4, ..., a0; a4-landscape, a4-portrait")
+    ->type_name("PAGE")
+    ->group(group);
+  command->group("Commands");
+  command->footer(DrawingExamples);
+  command->parse_complete_callback([&arguments] { arguments.What = Command::Drawing; });
+}
+
+void AddVisible(CLI::App& app, Arguments& arguments)
+{
+  CLI::App* command = app.add_subcommand("visible", "cut out what of a model's faces is visible");
+  AddModel(command, arguments);
+  command->add_option("-o,--output", arguments.Output, "model to write (.vtu)")
+    ->type_name("FILE")
+    ->required();
+  AddViewing(command, arguments);
+  command->add_flag("--hidden-regions", arguments.HiddenRegions, "what is hidden instead")
+    ->group("The view");
+  command->group("Commands");
+  command->footer(VisibleExamples);
+  command->parse_complete_callback([&arguments] { arguments.What = Command::Visible; });
+}
+
 // CLI11's help with usage lines that can be copied, and options without their validators.
 class HelpFormatter : public CLI::Formatter
 {
@@ -309,6 +496,8 @@ bool Parse(int argc, char** argv, Arguments& arguments, int& exitCode)
   info->parse_complete_callback([&arguments] { arguments.What = Command::Info; });
   AddTessellate(app, arguments);
   AddRender(app, arguments);
+  AddDrawing(app, arguments);
+  AddVisible(app, arguments);
   try
   {
     app.parse(argc, argv);

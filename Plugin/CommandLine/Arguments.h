@@ -14,7 +14,9 @@ enum class Command
 {
   Info,
   Tessellate,
-  Render
+  Render,
+  Drawing,
+  Visible
 };
 
 enum class ToleranceKind
@@ -39,6 +41,25 @@ enum class LengthUnit
   File ///< what the file is written in
 };
 
+/// The page of a drawing.
+enum class Page
+{
+  Tight, ///< as large as the drawing
+  A4,
+  A3,
+  A2,
+  A1,
+  A0
+};
+
+/// How a page lies.
+enum class Lie
+{
+  Automatic,
+  Landscape,
+  Portrait
+};
+
 /// All options of all commands; a command looks at its own.
 struct Arguments
 {
@@ -59,9 +80,22 @@ struct Arguments
 
   std::array<int, 2> Size = { 1200, 900 };
   std::array<double, 3> View = { 1.0, -1.0, 1.0 }; ///< from the object to the viewer
+  std::string ViewName = "iso";                    ///< as it was given
   bool Edges = false;
   bool Transparent = false;
   int Device = -1;
+
+  std::array<double, 3> Up = { 0.0, 0.0, 1.0 };
+  bool Perspective = false;
+  std::array<double, 3> Eye = { 0.0, 0.0, 1.0 };
+  double Precision = 1e-4; ///< of the model's diagonal
+  bool HiddenLines = true;
+  bool SmoothEdges = false;
+  bool HiddenRegions = false;
+  bool BothSides = true;
+  double Scale = 0.0; ///< paper by model; 0: as large as fits
+  Page Sheet = Page::Tight;
+  Lie Orientation = Lie::Automatic;
 };
 
 /// Parse. True if there is something to run; otherwise `exitCode` is what the process returns, and

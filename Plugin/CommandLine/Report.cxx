@@ -33,6 +33,27 @@ void WriteReport(const Report& report, const std::string& path)
     json["seconds"]["tessellate"] = report.TessellateSeconds;
     json["seconds"]["write"] = report.WriteSeconds;
   }
+  if (report.Viewed)
+  {
+    json["precision"] = report.Precision;
+    json["visible_faces"] = report.VisibleFaces;
+    json["partial_faces"] = report.PartialFaces;
+    json["hidden_faces"] = report.HiddenFaces;
+    json["failed_faces"] = report.UnusedFaces;
+    json["piercing_pairs"] = report.PiercingPairs;
+    json["visible_area"] = report.VisibleArea;
+    json["lines"] = report.Lines;
+    json["visible_lines"] = report.VisibleLines;
+    json["seconds"]["visibility"] = report.VisibilitySeconds;
+    json["seconds"]["write"] = report.WriteSeconds;
+  }
+  if (report.Drawn)
+  {
+    json["paths"] = report.Paths;
+    json["curves"] = report.Curves;
+    json["straight_lines"] = report.StraightLines;
+    json["scale"] = report.Scale;
+  }
   json["problems"] = report.Problems;
   std::ofstream file(path);
   file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -5,6 +5,7 @@
 #include "ProgressBar.h"
 #include "Report.h"
 #include "vtkDescribeModel.h"
+#include "vtkDrawModel.h"
 #include "vtkMessages.h"
 #include "vtkReadModel.h"
 #include "vtkRenderPicture.h"
@@ -237,6 +238,50 @@ int RenderCommand(const Arguments& arguments)
   return exitCode;
 }
 
+void PrintViewSummary(const Session& session)
+{
+  const Report& figures = session.Figures;
+  if (session.Options.Quiet)
+  {
+    return;
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << session.Options.Output << ": " << figures.Faces << " faces, "
+       << figures.VisibleFaces + figures.PartialFaces << " visible (" << figures.PartialFaces
+       << " in part)";
+  if (session.Options.What == Command::Drawing)
+  {
+    text << ", " << figures.Lines << " lines";
+  }
+  if (figures.Drawn)
+  {
+    text << " as " << figures.Curves << " curves and " << figures.StraightLines
+         << " straight lines";
+  }
+  if (figures.Unconverted + figures.UnusedFaces > 0)
+  {
+    text << ", " << figures.Unconverted + figures.UnusedFaces << " faces failed";
+  }
+  text << " (read " << figures.ReadSeconds << " s, visibility " << figures.VisibilitySeconds
+       << " s, write " << figures.WriteSeconds << " s)";
+  std::cout << text.str() << "\n";
+}
+
+int ViewCommand(const Arguments& arguments)
+{
+  CheckViewPath(arguments);
+  Session session(arguments);
+  const auto model = session.Read(true, 0.4);
+  session.Examine(model);
+  const auto seen = LookAt(model, arguments, session.Phase(0.4, 0.9), session.Figures);
+  session.Phase(0.9, 1.0);
+  WriteView(seen, arguments, session.Figures);
+  const int exitCode = session.Finish();
+  PrintViewSummary(session);
+  return exitCode;
+}
+
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
@@ -249,9 +294,12 @@ int Execute(const Arguments& arguments)
     case Command::Tessellate:
       return TessellateCommand(arguments);
     case Command::Render:
+      return RenderCommand(arguments);
+    case Command::Drawing:
+    case Command::Visible:
       break;
   }
-  return RenderCommand(arguments);
+  return ViewCommand(arguments);
 }
 
 } // namespace nurbs

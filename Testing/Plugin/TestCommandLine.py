@@ -11,9 +11,10 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 from vtkmodules.vtkCommonCore import vtkVersion
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkMassProperties
 from vtkmodules.vtkImagingCore import vtkImageDifference
 from vtkmodules.vtkIOGeometry import vtkGLTFReader, vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -24,6 +25,7 @@ DATA = Path("/usr/share/opencascade/data")
 SCREW = DATA / "step/screw.step"
 LINKRODS = DATA / "step/linkrods.step"
 BALL = DATA / "occ/Ball.brep"
+SVG = "{http://www.w3.org/2000/svg}"
 VTK_VERSION = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion())
 FIELDS = {
     "file": str,
@@ -113,9 +115,10 @@ class Help(unittest.TestCase):
     def test_help_shows_commands_and_examples(self):
         out, err = tool("--help")
         self.assertEqual(err, "")
-        for word in ("info", "tessellate", "render", "Examples:", "Usage: vtknurbs COMMAND"):
+        commands = ("info", "tessellate", "render", "drawing", "visible")
+        for word in (*commands, "Examples:", "Usage: vtknurbs COMMAND"):
             self.assertIn(word, out)
-        for command in ("info", "tessellate", "render"):
+        for command in commands:
             text, _ = tool(command, "--help")
             self.assertIn(f"Usage: vtknurbs {command} MODEL", text)
             self.assertLess(max(map(len, text.splitlines())), 101)
@@ -371,11 +374,198 @@ class Render(Folder):
         self.assertFalse(path.exists())
 
 
+class Drawing(Folder):
+    def run_to(self, name, *options, model=SCREW, command="drawing"):
+        path, report = self.folder / name, self.folder / "report.json"
+        tool(command, model, "-o", path, "--report", report, "--quiet", *options)
+        return path, json.loads(report.read_text())
+
+    def svg(self, *options, model=SCREW):
+        path, report = self.run_to("d.svg", *options, model=model)
+        root = ElementTree.parse(path).getroot()
+        groups = {g.get("id"): g.findall(f"{SVG}path") for g in root.iter(f"{SVG}g")}
+        return root, groups, report
+
+    def shape(self, name):
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+        import vtknurbs
+
+        source = vtknurbs.vtkNURBSShapeSource()
+        getattr(source, f"SetShapeTo{name}")()
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputConnection(source.GetOutputPort())
+        model = self.folder / f"{name}.vtu"
+        writer.SetFileName(str(model))
+        self.assertTrue(writer.Write())
+        return model
+
+    @staticmethod
+    def points(path):
+        """Of a path of M, L, C and Z; of curves, twenty a piece."""
+        points = []
+        for command, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d")):
+            values = [float(number) for number in numbers.split()]
+            corners = list(zip(values[::2], values[1::2]))
+            if command == "C":
+                a, (b, c, d) = points[-1], corners
+                for t in (i / 20 for i in range(1, 20)):
+                    weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
+                    points.append(
+                        tuple(sum(w * p[k] for w, p in zip(weights, (a, b, c, d))) for k in (0, 1))
+                    )
+            points += corners[-1:]
+        return points
+
+    def box(self, groups):
+        """Width and height of the curves."""
+        points = [p for group in groups.values() for path in group for p in self.points(path)]
+        xs, ys = zip(*points)
+        return max(xs) - min(xs), max(ys) - min(ys)
+
+    def test_report_is_true(self):
+        root, groups, report = self.svg()
+        self.assertEqual(set(report["seconds"]), {"read", "visibility", "write"})
+        self.assertEqual(report["faces"], 10)
+        faces = ("visible_faces", "partial_faces", "hidden_faces", "failed_faces")
+        self.assertEqual(sum(report[name] for name in faces), report["faces"])
+        paths = [path for group in groups.values() for path in group]
+        self.assertEqual(len(paths), report["paths"])
+        data = "".join(path.get("d") for path in paths)
+        self.assertEqual(data.count("C"), report["curves"])
+        self.assertEqual(data.count("L") + data.count("Z"), report["straight_lines"])
+        self.assertGreater(report["lines"], report["visible_lines"])
+        self.assertGreaterEqual(report["lines"], report["paths"])
+        known = json.loads((self.folder / "report.json").read_text())["edges"]
+        for path in paths:
+            self.assertTrue(path.get("data-face"))
+            for edge in (path.get("data-edge") or "").split():
+                self.assertLess(int(edge), known)
+        self.assertIn("screw.step", root.find(f"{SVG}desc").text)
+
+    def test_circle_is_a_few_curves_true_to_scale(self):
+        sphere = self.shape("Sphere")
+        for precision in ("1e-3", "1e-4", "1e-6"):
+            with self.subTest(precision):
+                root, groups, report = self.svg(
+                    "--view", "0.3,-1,0.5", "--scale", "20", "--precision", precision, model=sphere
+                )
+                outlines = groups["visible-silhouette"]
+                self.assertEqual(len(outlines), 1)
+                self.assertLessEqual(outlines[0].get("d").count("C"), 16)
+                x = float(root.get("width")[:-2]) / 2
+                y = float(root.get("height")[:-2]) / 2
+                radius = x - 10  # The margin
+                self.assertGreater(radius, 1)
+                for point in self.points(outlines[0]):
+                    distance = ((point[0] - x) ** 2 + (point[1] - y) ** 2) ** 0.5
+                    self.assertAlmostEqual(distance, radius, delta=1e-4 + 20 * report["precision"])
+
+    def test_hidden_and_smooth_lines(self):
+        _, groups, _ = self.svg()
+        self.assertIn("hidden-sharp", groups)
+        self.assertNotIn("visible-smooth", groups)
+        _, groups, _ = self.svg("--smooth", model=LINKRODS)
+        self.assertIn("visible-smooth", groups)
+        _, groups, report = self.svg("--no-hidden")
+        self.assertFalse([name for name in groups if name.startswith("hidden")])
+        self.assertEqual(report["lines"], report["visible_lines"])
+
+    def test_views(self):
+        torus = self.shape("Torus")
+
+        def box(*options):
+            _, groups, report = self.svg("--scale", "1:1", *options, model=torus)
+            width, height = self.box(groups)
+            return width / report["scale"], height / report["scale"], 3 * report["precision"]
+
+        def same(a, b):
+            self.assertAlmostEqual(a[0], b[0], delta=a[2])
+            self.assertAlmostEqual(a[1], b[1], delta=a[2])
+
+        width, height, within = front = box("--view", "front")
+        self.assertGreater(width, 1.5 * height)
+        same(box("--view", "left"), front)
+        same(box("--view=0,-2,0"), front)
+        same(box("--view", "top"), (width, width))
+        same(box("--view", "front", "--up", "1,0,0"), (height, width))
+        near = box("--eye", f"0,{-2 * width},0")
+        self.assertGreater(abs(near[1] / near[0] - height / width), within)
+
+    def test_pages(self):
+        root, _, report = self.svg("--page", "a3-landscape", "--scale", "1:2")
+        self.assertEqual((root.get("width"), root.get("height")), ("420mm", "297mm"))
+        self.assertEqual(report["scale"], 0.5)
+        drawing = root.find(f"{SVG}metadata")[0]
+        self.assertEqual(drawing.get("scale"), "1:2")
+        root, _, report = self.svg("--page", "a3-landscape", "--scale", "1:2", "--unit", "m")
+        self.assertEqual(report["scale"], 500)
+        self.assertEqual(root.find(f"{SVG}metadata")[0].get("scale"), "1:2")
+        path, _ = self.run_to("d.pdf", "--page", "a4")
+        data = path.read_bytes()
+        self.assertTrue(data.startswith(b"%PDF-"))
+        self.assertTrue(data.rstrip().endswith(b"%%EOF"))
+        box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", data)
+        self.assertAlmostEqual(float(box[1]), 210 / 25.4 * 72, delta=1e-3)
+        self.assertAlmostEqual(float(box[2]), 297 / 25.4 * 72, delta=1e-3)
+        self.fails(
+            "drawing", SCREW, "-o", self.folder / "large.svg", "--page", "a4", "--scale", "50:1",
+            says="the drawing is .* x .* mm at scale 50:1, and the page has room for 190 x 277 mm",
+        )  # fmt: skip
+
+    def test_polylines(self):
+        path, report = self.run_to("d.vtp")
+        lines = read(vtkXMLPolyDataReader(), path)
+        self.assertEqual(lines.GetNumberOfLines(), report["lines"])
+        self.assertEqual(lines.GetBounds()[4:], (0, 0))
+        arrays = lines.GetCellData()
+        seen = [arrays.GetArray("Visibility").GetTuple1(i) for i in range(report["lines"])]
+        self.assertEqual(sum(seen), report["visible_lines"])
+        for name in ("Kind", "EdgeId", "FaceId"):
+            self.assertEqual(arrays.GetArray(name).GetNumberOfTuples(), report["lines"])
+
+    def test_threads_change_nothing(self):
+        for name in ("d.svg", "d.pdf"):
+            one, two = (
+                self.run_to(name, "--threads", n, model=LINKRODS)[0].read_bytes() for n in (1, 2)
+            )
+            self.assertEqual(one, two)
+
+    def test_visible_regions_are_a_model(self):
+        # Of a sphere half is seen, and the other half is not.
+        sphere = self.shape("Sphere")
+        areas = []
+        for options in ((), ("--hidden-regions", "--one-sided")):
+            path, report = self.run_to(
+                "seen.vtu", "--view", "1,2,3", *options, model=sphere, command="visible"
+            )
+            self.assertNotIn("paths", report)
+            seen = read(vtkXMLUnstructuredGridReader(), path)
+            area = seen.GetCellData().GetArray("VisibleArea")
+            fraction = seen.GetCellData().GetArray("VisibleFraction")
+            total = sum(area.GetTuple1(i) for i in range(area.GetNumberOfTuples()))
+            self.assertAlmostEqual(total, report["visible_area"], delta=1e-9 * total)
+            self.assertAlmostEqual(fraction.GetTuple1(0), 0.5, delta=1e-3)
+            mesh = self.folder / "seen.vtp"
+            tool("tessellate", path, "-o", mesh, "--quiet")
+            properties = vtkMassProperties()
+            properties.SetInputData(read(vtkXMLPolyDataReader(), mesh))
+            properties.Update()
+            areas.append(properties.GetSurfaceArea())
+            self.assertAlmostEqual(areas[-1], total, delta=5e-3 * total)
+
+    def test_nothing_to_see(self):
+        self.fails(
+            "visible", self.shape("Sphere"), "-o", self.folder / "none.vtu", "--eye", "nan,0,0",
+            says="'nan,0,0' is not x,y,z", code=2,
+        )  # fmt: skip
+
+
 class Guide(Folder):
     def test_commands_of_the_guide_work(self):
         shutil.copy(SCREW, self.folder)
         commands = re.findall(r"^    vtknurbs (.*)$", GUIDE.read_text("utf-8"), re.MULTILINE)
-        self.assertGreaterEqual(len(commands), 8)
+        self.assertGreaterEqual(len(commands), 12)
         for command in commands:
             with self.subTest(command):
                 tool(*command.split(), cwd=self.folder)
@@ -395,6 +585,14 @@ class BadInput(Folder):
             (("render", SCREW, "-o", "p.png", "--size", "0x5"), "WIDTHxHEIGHT"),
             (("render", SCREW, "-o", "p.png", "--view", "0,0,0"), "--view"),
             (("render", SCREW, "-o", "p.png", "--pixels", "1", "--absolute", "1"), "excludes"),
+            (("drawing", SCREW), "--output is required"),
+            (("drawing", SCREW, "-o", "d.svg", "--view", "fore"), "neither a view's name"),
+            (("drawing", SCREW, "-o", "d.svg", "--view", "top", "--eye", "1,2,3"), "excludes"),
+            (("drawing", SCREW, "-o", "d.svg", "--up", "0,0,0"), "--up"),
+            (("drawing", SCREW, "-o", "d.svg", "--scale", "1:0"), "--scale"),
+            (("drawing", SCREW, "-o", "d.svg", "--page", "b5"), "--page"),
+            (("drawing", SCREW, "-o", "d.svg", "--page", "a4-"), "--page"),
+            (("visible", SCREW, "-o", "v.vtu", "--precision", "-1"), "'-1' is not a number"),
         ):
             with self.subTest(says):
                 self.fails(*arguments, says=says, code=2)
@@ -435,6 +633,8 @@ class BadInput(Folder):
             with self.subTest(says):
                 self.fails("tessellate", SCREW, "-o", output, says=says)
         self.fails("render", SCREW, "-o", self.folder / "p.jpg", says="pictures are .png")
+        self.fails("drawing", SCREW, "-o", self.folder / "d.dxf", says="drawings are .svg, .pdf")
+        self.fails("visible", SCREW, "-o", self.folder / "v.vtp", says="models are .vtu")
         self.fails(
             "tessellate", SCREW, "-o", self.folder / "m.stl", "--report", "/no/r.json",
             says="there is no folder",
@@ -442,11 +642,12 @@ class BadInput(Folder):
 
     @unittest.skipUnless(Path("/dev/full").exists(), "no /dev/full here")
     def test_full_disk(self):
-        for ending in (".vtp", ".vtu", ".stl", ".ply", ".obj", ".glb", ".png"):
+        for ending in (".vtp", ".vtu", ".stl", ".ply", ".obj", ".glb", ".png", ".svg", ".pdf"):
             with self.subTest(ending):
                 output = self.folder / f"full{ending}"
                 output.symlink_to("/dev/full")
-                command = "render" if ending == ".png" else "tessellate"
+                others = {".png": "render", ".svg": "drawing", ".pdf": "drawing"}
+                command = others.get(ending, "tessellate")
                 self.fails(command, SCREW, "-o", output, says=f"cannot write .*full{ending}|pace")
                 output.unlink(missing_ok=True)
 

@@ -25,6 +25,12 @@ endforeach ()
 run("${CMAKE_COMMAND}" -G Ninja -S "${CMAKE_CURRENT_LIST_DIR}/Package" -B "${scratch}/build"
   "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER=${COMPILER}")
 run("${CMAKE_COMMAND}" --build "${scratch}/build")
+if (PVPYTHON)
+  # ParaView's plugin where it was installed, with the libraries and the Python package beside it.
+  file(GLOB plugin "${prefix}/*/paraview-*/plugins/NURBS/NURBS.so")
+  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PVPYTHON}"
+    "${CMAKE_CURRENT_LIST_DIR}/ParaView/TestDefaults.py" "${plugin}" "${scratch}")
+endif ()
 foreach (program kernel pipeline)
   if (EXISTS "${scratch}/build/${program}")
     run("${scratch}/build/${program}")

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that are missing, garbage or cut, inputs that are no models: an error, and life goes on."""
-import session
 from paraview import simple
 from session import LINKRODS, Messages, leaves, load_plugin, path, size, updated
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The representation NURBS Surface, pixel by pixel beside the tessellator's triangles."""
 import numpy as np
-import session
 import vtknurbs
 from paraview import simple
 from session import SCREW, load_plugin, path, size, updated
@@ -88,6 +87,14 @@ camera = view.GetActiveCamera()
 camera.Azimuth(30)
 camera.Elevation(25)
 view.CameraParallelProjection = 1
+
+# Models are surfaces, second outputs are not.
+for name, second in (("NURBSVisibleRegions", "Surface"), ("NURBSFreeFormDeformation", "Wireframe")):
+    made = getattr(simple, name)(Input=reader)
+    for port, wanted in enumerate(["NURBS Surface", second]):
+        shown = simple.Show(simple.OutputPort(made, port), view).Representation
+        assert shown == wanted, (name, port, shown)
+        simple.Hide(simple.OutputPort(made, port), view)
 
 # Lit, and without an array: where it is, and how bright.
 lit = picture("surface.png")

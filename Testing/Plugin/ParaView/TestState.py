@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A session saved as .pvsm and .py and loaded again; a trace replayed; undo."""
-import session
 from paraview import simple, smstate, smtrace
 from session import LINKRODS, load_plugin, path, size, updated
 
@@ -51,7 +50,7 @@ def figures():
 def fresh_session():
     simple.ResetSession()
     assert not simple.GetSources()
-    session.load_plugin()
+    load_plugin()
 
 
 def checked(kind, expected):

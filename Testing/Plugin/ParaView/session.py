@@ -26,6 +26,7 @@ FILTERS = [
     "NURBSSilhouette",
     "NURBSTessellator",
     "NURBSToBezierCells",
+    "NURBSVisibleRegions",
     "NURBSWaveletLOD",
 ]
 

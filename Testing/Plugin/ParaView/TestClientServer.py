@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A pvserver of its own: models travel to the client and are drawn there, or on the server."""
+import socket
+import subprocess
+import sys
+
+from paraview import simple
+from session import PLUGIN, SCREW, path, size, updated
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+
+def picture(name):
+    simple.SaveScreenshot(path(name), view)
+    reader = vtkPNGReader()
+    reader.SetFileName(path(name))
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+
+
+with socket.socket() as free:
+    free.bind(("localhost", 0))
+    port = free.getsockname()[1]
+# It ends with the client's connection, at the end of this script.
+server = subprocess.Popen(
+    ["timeout", "100", sys.argv[3], "--server-port=%d" % port],
+    stdout=subprocess.PIPE,
+    universal_newlines=True,
+)
+try:
+    # The server tells when it listens; it takes one connection only.
+    for line in server.stdout:
+        if "Accepting connection" in line:
+            break
+    simple.Connect("localhost", port)
+    simple.LoadPlugin(PLUGIN, remote=True, ns=vars(simple))
+    simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
+    reader = updated(simple.OpenDataFile(SCREW))
+    mesh = updated(simple.NURBSTessellator(Input=reader, Tolerance=1e-4))
+    assert (size(reader)[0], size(mesh)[0]) == (10, 2186)
+    assert mesh.NumberOfTriangles == 2186
+
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [200, 150]
+    view.OrientationAxesVisibility = 0
+    view.UseFXAA = 0
+    display = simple.Show(reader, view)
+    assert display.Representation == "NURBS Surface"
+    view.ResetCamera(True)
+    view.RemoteRenderThreshold = 1000.0  # MiB: the client draws
+    here = picture("drawn-here.png")
+    view.RemoteRenderThreshold = 0.0
+    there = picture("drawn-there.png")
+    assert (here != here[0]).any(axis=1).sum() > 5000
+    differ = (abs(here - there) > 2).any(axis=1).sum()
+    print("drawn by the client and by the server: %d pixels differ" % differ)
+    assert differ < 20
+    sizes = [p.GetDataInformation().GetMemorySize() for p in (reader, mesh)]
+    print("%d KiB as surfaces, %d KiB as triangles within 1e-4" % tuple(sizes))
+    assert sizes[0] < sizes[1]
+    print("passed")
+except BaseException:
+    server.kill()
+    raise
