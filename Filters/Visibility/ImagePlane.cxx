@@ -12,6 +12,9 @@ namespace
 
 constexpr int MaxIterations = 24;
 constexpr int MaxHalvings = 12;
+// Steps longer than this share of the domain are looked at in so many places.
+constexpr double LongStep = 1e-3;
+constexpr int StepLooks = 8;
 // The nearest depth of a perspective view, as a share of the farthest.
 constexpr double NearestDepth = 1e-6;
 
@@ -161,8 +164,20 @@ bool ImagePlane::Lift(
     const double share = std::max(std::abs(step[0]) / u.Length(), std::abs(step[1]) / v.Length());
     step *= share > 0.5 ? 0.5 / share : 1.0;
     State next = at(now.UV - step);
-    // Not beyond the fold.
-    for (int half = 0; half < MaxHalvings && next.Jacobian.determinant() * sheet < 0.0; ++half)
+    // Not beyond the fold, and, if the step is long, not to another sheet behind it.
+    const auto leavesSheet = [&]() {
+      bool leaves = next.Jacobian.determinant() * sheet < 0.0;
+      const int looks =
+        std::max(std::abs(step[0]) / u.Length(), std::abs(step[1]) / v.Length()) > LongStep
+        ? StepLooks
+        : 1;
+      for (int i = 1; i < looks && !leaves; ++i)
+      {
+        leaves = at(now.UV - double(i) / looks * step).Jacobian.determinant() * sheet < 0.0;
+      }
+      return leaves;
+    };
+    for (int half = 0; half < MaxHalvings && sheet != 0 && leavesSheet(); ++half)
     {
       step *= 0.5;
       next = at(now.UV - step);

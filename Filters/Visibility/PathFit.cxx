@@ -22,7 +22,8 @@ constexpr double AnyBow = 16.0;
 constexpr double LinePart =
   0.7; // ...and is this part at least of the chord that may bow by AnyBow.
 constexpr double LeastLine = 4.0;
-constexpr double ShortestBow = 1.0 / 16.0; // To where pieces are evened out.
+constexpr double ShortestBow = 1.0 / 16.0; // To where pieces are evened out,
+constexpr int EveningRounds = 2;           // each round for the cost of a fit.
 
 double AngleBetween(const Vec2& a, const Vec2& b)
 {
@@ -72,7 +73,7 @@ public:
 
   // The farthest vertex from `from` on, forwards or backwards, to which a straight line keeps
   // within `bow` of all vertices between, by the sector of directions that they leave; the first
-  // neighbour at least. Indices of a loop go on past its ends.
+  // neighbour at least, or `from` where there is none. Indices of a loop go on past its ends.
   std::ptrdiff_t Reach(std::ptrdiff_t from, int step, double bow) const;
 
   Vec2 At(std::ptrdiff_t k) const
@@ -108,6 +109,10 @@ std::ptrdiff_t Section::Reach(std::ptrdiff_t from, int step, double bow) const
 {
   const std::ptrdiff_t end =
     this->Loop ? from + step * (this->Last - 1) : (step > 0 ? this->Last : 0);
+  if (from == end)
+  {
+    return from;
+  }
   const Vec2 origin = this->At(from);
   Vec2 axis = Vec2::Zero();
   double low = -Pi, high = Pi, farthest = 0.0;
@@ -236,7 +241,7 @@ Vec2 Section::Tangent(std::size_t at) const
   const Vec2 after = this->At(this->Reach(k, 1, bow)) - this->At(k);
   const double a = before.squaredNorm(), b = after.squaredNorm();
   const Vec2 tangent = before * b + after * a;
-  return tangent.isZero() ? after.normalized() : tangent.normalized();
+  return !tangent.isZero() ? tangent.normalized() : (b > 0.0 ? after : before).normalized();
 }
 
 // The longest piece that starts at `first` and keeps within the tolerance, by doubling and
@@ -307,7 +312,7 @@ std::vector<PathPiece> Section::FitRun(const Run& run, const CubicEnds& ends) co
 {
   std::vector<PathPiece> best = this->FitRun(run, ends, this->Tolerance);
   double low = ShortestBow, high = 1.0;
-  for (int k = 0; k < 4 && best.size() > 1; ++k)
+  for (int k = 0; k < EveningRounds && best.size() > 1; ++k)
   {
     const double middle = std::sqrt(low * high);
     std::vector<PathPiece> pieces = this->FitRun(run, ends, middle * this->Tolerance);

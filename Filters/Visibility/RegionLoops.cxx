@@ -449,20 +449,19 @@ void RegionLifter::RefineShadow(
   this->RefineShadow(middle, b, sheet, depth - 1, out);
 }
 
-// Each point is found from the one before, or from what is seen beside the border.
+// Each point is found from what is seen beside the border: from the one before, the way may lead to
+// another sheet, where two of them part at a cusp of the silhouette that casts the shadow.
 void RegionLifter::AddShadow(
   const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out)
 {
   const auto image = [&](const Step& step, LinePosition at) {
     return ImageAt(this->Lines.Lines[step.Source->Line], at);
   };
-  const auto lift = [&](const Step& step, const Vec2& from, ShadowPoint& point) {
-    const int sheet = this->IsFlipped(step.Half) ? -1 : 1;
-    point.UV = from;
+  const auto lift = [&](const Vec2& seed, const Vec2& before, int sheet, ShadowPoint& point) {
+    point.UV = seed;
     if (!this->Image.Lift(this->Surface, point.Image, this->Precision, sheet, point.UV))
     {
-      ShadowPoint other = point;
-      other.UV = this->Seed(step.Half);
+      ShadowPoint other{ point.Image, before };
       this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
       const auto miss = [&](const ShadowPoint& one) {
         return (this->Image.Project(this->Point(one.UV)) - one.Image).norm();
@@ -472,14 +471,18 @@ void RegionLifter::AddShadow(
   };
   RegionPiece piece;
   ShadowPoint before{ image(steps[begin], steps[begin].From), Vec2::Zero() };
-  lift(steps[begin], this->Seed(steps[begin].Half), before);
-  piece.Polyline.push_back(before.UV);
   for (std::size_t k = begin; k < end; ++k)
   {
+    const int sheet = this->IsFlipped(steps[k].Half) ? -1 : 1;
+    const Vec2 seed = this->Seed(steps[k].Half);
+    if (k == begin)
+    {
+      lift(seed, seed, sheet, before);
+      piece.Polyline.push_back(before.UV);
+    }
     ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
-    lift(steps[k], before.UV, next);
-    this->RefineShadow(
-      before, next, this->IsFlipped(steps[k].Half) ? -1 : 1, MaxShadowDepth, piece.Polyline);
+    lift(seed, before.UV, sheet, next);
+    this->RefineShadow(before, next, sheet, MaxShadowDepth, piece.Polyline);
     piece.Polyline.push_back(next.UV);
     before = next;
   }

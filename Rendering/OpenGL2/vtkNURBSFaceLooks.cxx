@@ -2,8 +2,12 @@
 #include "vtkNURBSFaceLooks.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
 #include "vtkMapper.h"
 #include "vtkScalarsToColors.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -19,12 +23,14 @@ unsigned char Byte(double share)
 
 } // namespace
 
-bool vtkNURBSFaceLooks::Update(
-  vtkMapper* mapper, const vtkNURBSDrawnModel& model, vtkCompositeDataDisplayAttributes* attributes)
+bool vtkNURBSFaceLooks::Update(vtkMapper* mapper, const vtkNURBSDrawnModel& model,
+  vtkCompositeDataDisplayAttributes* attributes, const double selected[3])
 {
+  vtkSelection* selection = mapper->GetSelection();
   std::vector<std::pair<const void*, vtkMTimeType>> state;
   state.emplace_back(mapper, mapper->GetMTime());
   state.emplace_back(attributes, attributes ? attributes->GetMTime() : 0);
+  state.emplace_back(selection, selection ? selection->GetMTime() : 0);
   for (const vtkNURBSDrawnModel::Leaf& leaf : model.GetLeaves())
   {
     state.emplace_back(leaf.Grid, leaf.Grid->GetMTime());
@@ -44,8 +50,12 @@ bool vtkNURBSFaceLooks::Update(
   {
     this->AddLeaf(mapper, leaf, attributes);
   }
+  if (selection)
+  {
+    this->MarkSelected(selection, model, selected);
+  }
   // The lookup table may have been made, and built, just now.
-  state.resize(2 + model.GetLeaves().size());
+  state.resize(3 + model.GetLeaves().size());
   state[0].second = mapper->GetMTime();
   if (vtkScalarsToColors* table = mapper->GetLookupTable())
   {
@@ -93,5 +103,38 @@ void vtkNURBSFaceLooks::AddLeaf(vtkMapper* mapper, const vtkNURBSDrawnModel::Lea
     this->Bytes.insert(this->Bytes.end(), look, look + 8);
     this->Hidden.push_back(hidden);
     this->Translucent = this->Translucent || (!hidden && (look[3] < 255 || opacity < 1.0));
+  }
+}
+
+void vtkNURBSFaceLooks::MarkSelected(
+  vtkSelection* selection, const vtkNURBSDrawnModel& model, const double color[3])
+{
+  for (unsigned int n = 0; n < selection->GetNumberOfNodes(); ++n)
+  {
+    vtkSelectionNode* node = selection->GetNode(n);
+    auto* cells = vtkIdTypeArray::SafeDownCast(node->GetSelectionList());
+    if (!cells || node->GetFieldType() != vtkSelectionNode::CELL ||
+      node->GetContentType() != vtkSelectionNode::INDICES)
+    {
+      continue;
+    }
+    vtkInformation* about = node->GetProperties();
+    const bool ofBlock = about->Has(vtkSelectionNode::COMPOSITE_INDEX()) != 0;
+    const int block = ofBlock ? about->Get(vtkSelectionNode::COMPOSITE_INDEX()) : 0;
+    for (const vtkNURBSDrawnModel::Leaf& leaf : model.GetLeaves())
+    {
+      const auto faces = static_cast<vtkIdType>(leaf.Model().Faces.size());
+      const bool named = leaf.FlatIndex == 0 || (ofBlock && int(leaf.FlatIndex) == block);
+      for (vtkIdType i = 0; named && i < cells->GetNumberOfValues(); ++i)
+      {
+        const vtkIdType face = cells->GetValue(i);
+        if (face >= 0 && face < faces)
+        {
+          unsigned char* look = &this->Bytes[8 * (leaf.First + face)];
+          std::transform(color, color + 3, look, Byte);
+          look[4] = 255;
+        }
+      }
+    }
   }
 }

@@ -15,14 +15,15 @@
 
 class vtkCompositeDataDisplayAttributes;
 class vtkMapper;
+class vtkSelection;
 
 class vtkNURBSFaceLooks
 {
 public:
   /// Looks at the mapper's settings and the model's attributes as they are now. True if something
-  /// is other than at the last time.
+  /// is other than at the last time. Faces of the mapper's selection have the colour `selected`.
   bool Update(vtkMapper* mapper, const vtkNURBSDrawnModel& model,
-    vtkCompositeDataDisplayAttributes* attributes);
+    vtkCompositeDataDisplayAttributes* attributes, const double selected[3]);
 
   const std::vector<unsigned char>& GetBytes() const { return this->Bytes; }
   bool IsHidden(int surface) const { return this->Hidden[surface] != 0; }
@@ -32,6 +33,8 @@ public:
 private:
   void AddLeaf(vtkMapper* mapper, const vtkNURBSDrawnModel::Leaf& leaf,
     vtkCompositeDataDisplayAttributes* attributes);
+  void MarkSelected(
+    vtkSelection* selection, const vtkNURBSDrawnModel& model, const double color[3]);
 
   std::vector<std::pair<const void*, vtkMTimeType>> State;
   std::vector<unsigned char> Bytes;

@@ -208,7 +208,7 @@ bool vtkNURBSMapper::UpdateModel()
 void vtkNURBSMapper::UpdateLooks()
 {
   Internals& c = *this->Content;
-  if (c.Looks.Update(this, c.Model, this->Attributes))
+  if (c.Looks.Update(this, c.Model, this->Attributes, this->SelectedColor))
   {
     c.LooksAreSent = false;
   }
@@ -590,6 +590,7 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetLookDirection(mapper->GetLookDirection());
     this->SetNumberOfStripes(mapper->GetNumberOfStripes());
     this->SetNumberOfIsoLines(mapper->GetNumberOfIsoLines());
+    this->SetSelectedColor(mapper->GetSelectedColor());
     this->SetCompositeDataDisplayAttributes(mapper->GetCompositeDataDisplayAttributes());
   }
   this->Superclass::ShallowCopy(other);
@@ -610,6 +611,8 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "NumberOfStripes: " << this->NumberOfStripes << "\n"
      << indent << "NumberOfIsoLines: " << this->NumberOfIsoLines[0] << " "
      << this->NumberOfIsoLines[1] << "\n"
+     << indent << "SelectedColor: " << this->SelectedColor[0] << " " << this->SelectedColor[1]
+     << " " << this->SelectedColor[2] << "\n"
      << indent << "AchievedPixelError: " << this->AchievedPixelError << "\n"
      << indent << "NumberOfTriangles: " << this->NumberOfTriangles << "\n"
      << indent << "CompositeDataDisplayAttributes: " << this->Attributes.Get() << "\n";

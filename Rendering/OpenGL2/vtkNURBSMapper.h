@@ -185,6 +185,16 @@ public:
 
   ///@{
   /**
+   * Colour of the faces that the mapper's selection names (vtkMapper::SetSelection): nodes of cells by
+   * indices, in a composite input with the block's COMPOSITE_INDEX. Default (1, 0, 1). Not where
+   * triangles of vtkNURBSTessellator are drawn instead.
+   */
+  vtkSetVector3Macro(SelectedColor, double);
+  vtkGetVector3Macro(SelectedColor, double);
+  ///@}
+
+  ///@{
+  /**
    * Of the last frame: triangles drawn, and the bound that they keep (over PixelError only if a span
    * would need more than 4096 cells in a direction).
    */
@@ -241,6 +251,7 @@ protected:
   double LookDirection[3] = { 0.0, 0.0, 1.0 };
   int NumberOfStripes = 18;
   int NumberOfIsoLines[2] = { 0, 0 };
+  double SelectedColor[3] = { 1.0, 0.0, 1.0 };
   double AchievedPixelError = 0.0;
   vtkIdType NumberOfTriangles = 0;
   vtkSmartPointer<vtkCompositeDataDisplayAttributes> Attributes;

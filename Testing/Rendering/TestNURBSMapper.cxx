@@ -235,6 +235,33 @@ TEST_P(Composites, BlocksHaveColorAndOpacity)
   EXPECT_EQ(Size * Size - vtkTestImage::CountOthers(picture, { 204, 51, 0 }), inFirst);
 }
 
+TEST_P(Composites, SelectedFacesHaveTheirColor)
+{
+  vtkMapperScene& scene = *this->Scene;
+  scene.Actor->GetProperty()->LightingOff();
+  const Hit wanted = Select(scene).rbegin()->first; // of the last block
+  const long pixels = Select(scene)[wanted];
+  EXPECT_EQ(wanted.Block, this->Index[1]);
+  vtkNew<vtkIdTypeArray> cells;
+  cells->InsertNextValue(wanted.Cell);
+  cells->InsertNextValue(1000000); // which there is not
+  vtkNew<vtkSelectionNode> node;
+  node->SetFieldType(vtkSelectionNode::CELL);
+  node->SetContentType(vtkSelectionNode::INDICES);
+  node->SetSelectionList(cells);
+  node->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), wanted.Block);
+  vtkNew<vtkSelection> selection;
+  selection->AddNode(node);
+  scene.Mapper->SetSelection(selection);
+  scene.Mapper->SetSelectedColor(0.8, 0.2, 0.0);
+  const auto inColor = [&scene] {
+    return Size * Size - vtkTestImage::CountOthers(scene.Picture(), { 204, 51, 0 });
+  };
+  EXPECT_NEAR(inColor(), pixels, 2);
+  selection->RemoveAllNodes();
+  EXPECT_EQ(inColor(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(MultiBlockOrPartitioned, Composites, testing::Bool());
 
 /// Selection against rays.

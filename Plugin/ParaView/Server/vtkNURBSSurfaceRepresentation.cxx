@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSSurfaceRepresentation.h"
 
+#include "vtkAlgorithmOutput.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataObjectTree.h"
@@ -11,10 +12,12 @@
 #include "vtkNURBSModelBlocks.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVExtractSelection.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkProperty.h"
 #include "vtkSelection.h"
+#include "vtkView.h"
 
 #include <array>
 #include <optional>
@@ -74,6 +77,19 @@ void SetLeaves(vtkDataObject* block, const Style& around, Attributes* given, Att
   {
     leaves->SetBlockColor(block, style.Color->data());
   }
+}
+
+// Where the data of a connection come from, without the filters that ParaView puts behind each output.
+vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
+{
+  vtkAlgorithmOutput* origin = nullptr;
+  while (consumer && consumer->GetNumberOfInputPorts() > 0 &&
+    consumer->GetNumberOfInputConnections(0) > 0)
+  {
+    origin = consumer->GetInputConnection(0, 0);
+    consumer = origin->GetProducer()->IsA("vtkPVPostFilter") ? origin->GetProducer() : nullptr;
+  }
+  return origin;
 }
 
 } // namespace
@@ -143,6 +159,7 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     vtkNew<vtkMatrix4x4> matrix;
     this->Actor->GetMatrix(matrix);
     vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+    this->ShowSelectedFaces();
   }
   return 1;
 }
@@ -154,6 +171,40 @@ void vtkNURBSSurfaceRepresentation::SetDrawnData(vtkDataObject* delivered)
   if (this->Mapper->GetInputDataObject(0, 0) != drawn)
   {
     this->Mapper->SetInputDataObject(drawn);
+  }
+}
+
+// ParaView extracts what is selected of our input, and shows that by a representation beside this one.
+// It is looked for where the data are; a client that draws a server's models shows control points only,
+// as ParaView delivers what comes late only together with the models.
+void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
+{
+  vtkNew<vtkSelection> selection;
+  std::vector<vtkMTimeType> times;
+  vtkView* view = this->GetView();
+  vtkAlgorithmOutput* input = OriginOf(this);
+  for (int i = 0; input && view && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    auto* shown = vtkGeometryRepresentation::SafeDownCast(view->GetRepresentation(i));
+    vtkAlgorithmOutput* origin = shown && shown->GetVisibility() ? OriginOf(shown) : nullptr;
+    auto* extraction =
+      origin ? vtkPVExtractSelection::SafeDownCast(origin->GetProducer()) : nullptr;
+    if (extraction && OriginOf(extraction) == input)
+    {
+      extraction->Update();
+      auto* faces = vtkSelection::SafeDownCast(
+        extraction->GetOutputDataObject(vtkPVExtractSelection::OUTPUT_PORT_SELECTION_IDS));
+      times.push_back(faces->GetMTime());
+      for (unsigned int n = 0; n < faces->GetNumberOfNodes(); ++n)
+      {
+        selection->AddNode(faces->GetNode(n));
+      }
+    }
+  }
+  if (times != this->SelectionTimes)
+  {
+    this->SelectionTimes = times;
+    this->Mapper->SetSelection(selection);
   }
 }
 

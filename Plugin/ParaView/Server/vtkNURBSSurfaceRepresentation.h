@@ -5,7 +5,7 @@
  *
  * The models travel to where they are drawn as they are: control points, knots and trims. Colours by
  * cell arrays, opacity, material, transforms, and the visibility, colours and opacities of blocks work
- * as in vtkGeometryRepresentation; a selected cell is a CAD face. While the user moves the camera the
+ * as in vtkGeometryRepresentation. A selected cell is a CAD face, and is shown in the selection's colour. While the user moves the camera the
  * mapper itself keeps to InteractiveFrameRate; ParaView's own levels of detail are not asked for.
  *
  * @sa vtkNURBSMapper
@@ -15,6 +15,8 @@
 
 #include "vtkGeometryRepresentation.h"
 #include "vtkNURBSParaViewServerModule.h" // For export macro
+
+#include <vector> // For the selections
 
 class vtkNURBSMapper;
 
@@ -96,6 +98,7 @@ private:
   vtkNURBSMapper* GetNURBSMapper();
   void SetDrawnData(vtkDataObject* delivered);
   void UpdateBlockAttributes(vtkDataObject* delivered);
+  void ShowSelectedFaces();
   void UpdateLookTable();
   bool ColorsByArray(const char*& name, bool& direct);
 
@@ -104,7 +107,8 @@ private:
   bool UseLookRange = false;
   double LookRange[2] = { 0.0, 1.0 };
   bool MapScalars = true;
-  vtkMTimeType BlocksOf = 0; ///< MTime of the data whose blocks the mapper knows.
+  vtkMTimeType BlocksOf = 0;                ///< MTime of the data whose blocks the mapper knows.
+  std::vector<vtkMTimeType> SelectionTimes; ///< Of the selections that the mapper knows.
 };
 
 #endif

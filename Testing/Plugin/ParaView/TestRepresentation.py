@@ -133,7 +133,17 @@ for k in range(0, len(rows), len(rows) // 5):
         table.GetColor(face, expected)
         expected = [255.0 * c for c in expected]
         assert max(abs(expected - faces[y, x])) <= 3, (face, expected, faces[y, x])
+# It is shown in the selection's colour.
+face = tuple(faces[len(faces) // 2, SIZE[0] // 2])
+inside = (faces == face).all(axis=2)
+y, x = (int(i) for i in np.argwhere(inside)[inside.sum() // 2])
+assert len(faces_in([x, y, x, y])) == 1 and inside.sum() > 300
+selected = (picture("selected.png") == (255, 0, 255)).all(axis=2)
+print("selected face: %d of %d pixels" % ((selected & inside).sum(), inside.sum()))
+assert (selected & inside).sum() > 0.95 * inside.sum()
+assert (selected & ~inside & covered(faces)).sum() < 300  # marks of control points
 simple.ClearSelection(reader)
+assert away(picture("unselected.png"), faces) == 0.0
 simple.ColorBy(display, None)
 
 # Opacity, edges, looks.
