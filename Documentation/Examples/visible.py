@@ -1,5 +1,6 @@
-"""The picture of the guide's page on visible regions: what is seen of a CAD file from the front right,
-left as a model that is looked at from elsewhere, right as a drawing with hidden lines in grey.
+"""The picture of the guide's page on visible regions: what is seen of a CAD file from the front
+right, on the left as a model that is looked at from elsewhere, on the right as a drawing with
+hidden lines in grey.
 
     PYTHONPATH=build/release/lib/python3/dist-packages \\
         /usr/bin/python3 Documentation/Examples/visible.py FILE PICTURE.png
@@ -49,12 +50,12 @@ def draw(port, left, right, toward_viewer):
     camera.SetViewUp(0, 0, 1)
     camera.ParallelProjectionOn()
     renderer.ResetCamera()
-    camera.Zoom(1.25)
+    camera.Zoom(1.58)
     window.AddRenderer(renderer)
     return actor
 
 
-window = vtkNURBSEGLRenderWindow.Create(960, 400)
+window = vtkNURBSEGLRenderWindow.Create(960, 340)
 if window is None:
     raise SystemExit("no OpenGL; the message above tells why")
 window.SetMultiSamples(8)
@@ -84,6 +85,6 @@ writer.SetFileName(options.picture)
 writer.Write()
 print(
     f"{regions.GetNumberOfVisibleFaces()} of {regions.GetNumberOfFaces()} faces are visible as a"
-    f" whole, {regions.GetNumberOfPartialFaces()} in part;"
-    f" {regions.GetNumberOfVisibleLines()} of {regions.GetNumberOfLines()} lines are visible"
+    f" whole, {regions.GetNumberOfPartialFaces()} in part,"
+    f" and {regions.GetNumberOfVisibleLines()} of {regions.GetNumberOfLines()} lines"
 )
