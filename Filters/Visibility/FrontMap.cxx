@@ -242,12 +242,7 @@ std::vector<LineStep> LineWalk::Steps(std::int64_t line) const
     for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
     {
       const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
-      std::int64_t k = this->Map.SourceStart[edge];
-      while (this->Map.Sources[k].Segment != s)
-      {
-        ++k;
-      }
-      out.push_back({ edge, k });
+      out.push_back({ edge, &this->Map.SourceOf(edge, s) - this->Map.Sources.data() });
     }
   }
   return out;

@@ -12,6 +12,8 @@
 #include "PlanarMap.h"
 #include "ViewLines.h"
 
+#include <algorithm>
+
 namespace nurbs
 {
 
@@ -58,8 +60,8 @@ struct FrontMap
   std::vector<LinePart> Segments;
   std::vector<std::int64_t> FirstSegment; ///< One a line, into Segments; and the end.
   std::vector<std::int64_t> SourceStart;  ///< One an edge of the map, into Sources; and the end.
-  std::vector<LineSource> Sources;
-  std::vector<FrontHit> Cells; ///< What is in front, by cell.
+  std::vector<LineSource> Sources;        ///< Of an edge by their segments.
+  std::vector<FrontHit> Cells;            ///< What is in front, by cell.
   /// A front surface that is seen in one place of a cell, and another one in another: the surfaces
   /// pierce each other, or touch. Pairs of faces, each once, sorted.
   std::vector<std::array<std::int64_t, 2>> Piercing;
@@ -83,6 +85,13 @@ struct FrontMap
   {
     return { this->Sources.data() + this->SourceStart[edge],
       std::size_t(this->SourceStart[edge + 1] - this->SourceStart[edge]) };
+  }
+  /// The source of an edge that a segment is.
+  const LineSource& SourceOf(std::int32_t edge, std::int64_t segment) const
+  {
+    const ArrayView<LineSource> sources = this->SourcesOf(edge);
+    return *std::lower_bound(sources.begin(), sources.end(), std::int32_t(segment),
+      [](const LineSource& source, std::int32_t s) { return source.Segment < s; });
   }
   /// A point of the image within a side's cell, a few pixels from the middle of an edge, or nearer
   /// where the cell is narrow.

@@ -210,9 +210,7 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
     {
       const bool backward = snapped.Path[p] < 0;
       const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
-      const ArrayView<LineSource> sources = this->Map.SourcesOf(edge);
-      const LineSource& source = *std::find_if(sources.begin(), sources.end(),
-        [&](const LineSource& one) { return one.Segment == std::int32_t(s); });
+      const LineSource& source = this->Map.SourceOf(edge, s);
       add(p + 1 == snapped.PathStart[s + 1]
           ? segment.To
           : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]),
