@@ -17,6 +17,7 @@ constexpr double SplitPlaces[2] = { 0.4861, 0.5317 };
 constexpr int MaxChordDepth = 30;
 constexpr std::size_t MaxSingularPoints = 16;
 constexpr double SmallestStep = 1e-12; // Of a patch's parameter.
+constexpr double StraightWay = 1e-9;   // Of the one parameter against the other.
 
 struct Cell
 {
@@ -420,6 +421,20 @@ void Tracer::Trace(const Cell& cell, const Slope (&slopes)[2], const SideNode& a
   const int slopeDir = both ? (way[1] > way[0] ? 0 : 1) : (slopes[1].Sign != 0 ? 1 : 0);
   const int slope = slopes[slopeDir].Sign;
   const int lead = 1 - slopeDir;
+  const double length = (this->Nodes[a.Node].Point - this->Nodes[b.Node].Point).norm();
+  if (way[lead] <= StraightWay || length <= this->Limits.Smallest)
+  {
+    // One value of what should lead, to rounding, along a ruling of a cone for example, where the other
+    // parameter would be found anywhere.
+    const auto straight = [&](double t) {
+      const Vec2 st = a.ST + t * (b.ST - a.ST);
+      return MakePoint(
+        *this->Source.Patch, st, EvaluateContour(*this->Source.Patch, this->View, st[0], st[1]));
+    };
+    RefineChord(straight, this->Limits.Precision, 0.0, this->Nodes[a.Node], 1.0,
+      this->Nodes[b.Node], MaxChordDepth, out);
+    return;
+  }
   // Known points of the branch, for guesses.
   std::map<double, double> known{ { 0.0, a.ST[slopeDir] }, { 1.0, b.ST[slopeDir] } };
   const auto at = [&](double t) {
