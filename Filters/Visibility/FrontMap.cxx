@@ -21,6 +21,8 @@ constexpr int SamplesPerCell = 4;
 // nearer to the line. On other sheets it leads nowhere near; at a silhouette, where the surface turns
 // away, to the square root of the chord's error.
 constexpr double NearerShare = 0.6;
+// What is in front of a line by less is its own surface, in pixels.
+constexpr double BareDepth = 8.0;
 
 // The segments of all parts.
 void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
@@ -194,14 +196,7 @@ FrontMap MakeLineMap(const ViewLines& lines, const std::vector<LinePart>& parts,
 {
   FrontMap map;
   map.Pixel = pixel;
-  Box2 box;
-  for (const ViewLine& line : lines.Lines)
-  {
-    for (const Vec2& point : line.Image)
-    {
-      box.extend(point);
-    }
-  }
+  const Box2 box = lines.Box();
   map.Center = box.isEmpty() ? Vec2(Vec2::Zero()) : Vec2(box.center());
   std::vector<GridPoint> points;
   std::vector<GridSegment> segments;
@@ -447,28 +442,46 @@ public:
     , Caster(caster)
     , Map(map)
     , Walk(lines.Lines, map)
-  {}
+    , Neighbours(lines.Whole.Data.Faces.size())
+    , Size((lines.Box().diagonal()).norm())
+  {
+    for (const std::vector<EdgeUse>& uses : lines.Uses)
+    {
+      for (const EdgeUse& use : uses)
+      {
+        for (const EdgeUse& other : uses)
+        {
+          this->Neighbours[use.Face].insert(other.Face);
+        }
+      }
+    }
+  }
 
   void Find(std::int64_t line);
 
 private:
+  Vec3 Middle(const ViewLine& line, const LineStep& step) const;
   bool Shows(const ViewLine& line, const LineStep& step, int side) const;
+  bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
 
   const ViewLines& Lines;
   const ImagePlane& Image;
   const RayCaster& Caster;
   FrontMap& Map;
   LineWalk Walk;
+  std::vector<std::set<std::int64_t>> Neighbours; // Of faces, by their edges; and themselves.
+  double Size;                                    // Of the image.
 };
+
+Vec3 ShownLines::Middle(const ViewLine& line, const LineStep& step) const
+{
+  const LinePosition at = 0.5 * (this->Walk.Start(step) + this->Walk.End(step));
+  return ExactPointAt(this->Lines, line, at).Point;
+}
 
 bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
 {
-  const LineSource& source = this->Map.Sources[step.Source];
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  const double at = 0.5 *
-    (this->Map.At(this->Lines.Lines, source, ends[0]) +
-      this->Map.At(this->Lines.Lines, source, ends[1]));
-  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+  const Vec3 point = this->Middle(line, step);
   if (line.IsIntersection())
   {
     // Both faces are seen on both sides of it, where nothing is in front.
@@ -491,6 +504,34 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
     NearerShare * (hit.Point - point).norm();
 }
 
+// A face that turns away may be narrower than a pixel there, so that a neighbour's cell begins at its
+// silhouette. True if that is so, and nothing is in front of the line itself.
+bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) const
+{
+  const Vec3 point = this->Middle(line, step);
+  const FrontHit beside = LookAt(this->Caster, this->Image, this->Map.Beside(step.Edge, side));
+  // Of a surface that turns away with a radius up to the image's size.
+  const double reach = std::sqrt(2.0 * SideReach * this->Map.Pixel * this->Size);
+  if (beside.Face < 0 ||
+    std::abs(this->Image.Depth(beside.Point) - this->Image.Depth(point)) > reach)
+  {
+    return false;
+  }
+  bool isNeighbour = this->Neighbours[line.Face].count(beside.Face) > 0;
+  for (std::size_t k = 0; line.IsEdge() && k < this->Lines.Uses[line.Edge].size(); ++k)
+  {
+    isNeighbour =
+      isNeighbour || this->Neighbours[this->Lines.Uses[line.Edge][k].Face].count(beside.Face) > 0;
+  }
+  if (!isNeighbour)
+  {
+    return false;
+  }
+  const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
+  return front.Face < 0 ||
+    this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
+}
+
 // Between two crossings nothing changes: one look a side, where there is most room.
 void ShownLines::Find(std::int64_t index)
 {
@@ -504,16 +545,16 @@ void ShownLines::Find(std::int64_t index)
     for (int lineSide = 0; lineSide < sides; ++lineSide)
     {
       const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
+      const int side = this->Walk.Side(best, lineSide);
       const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
-      if (face < 0 || !IsOfFace(this->Lines, line, face) ||
-        !this->Shows(line, best, this->Walk.Side(best, lineSide)))
-      {
-        continue;
-      }
+      const bool shows =
+        face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
+      const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
       for (std::size_t k = first; k < last; ++k)
       {
-        this->Map.Sources[steps[k].Source].Shows |=
-          std::uint8_t(1 << this->Walk.Side(steps[k], lineSide));
+        LineSource& source = this->Map.Sources[steps[k].Source];
+        source.Shows |= std::uint8_t((shows ? 1 : 0) << this->Walk.Side(steps[k], lineSide));
+        source.IsBare = source.IsBare || isBare;
       }
     }
   }

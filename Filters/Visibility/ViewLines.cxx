@@ -397,6 +397,19 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   return out;
 }
 
+Box2 ViewLines::Box() const
+{
+  Box2 box;
+  for (const ViewLine& line : this->Lines)
+  {
+    for (const Vec2& point : line.Image)
+    {
+      box.extend(point);
+    }
+  }
+  return box;
+}
+
 bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
 {
   if (!line.IsEdge())

@@ -50,6 +50,9 @@ struct ViewLines
   std::vector<FaceSilhouette> Faces;
   std::vector<char> IsShell; ///< One a face: it belongs to a closed, consistently oriented shell.
   bool Aborted = false;
+
+  /// Around the images of all lines.
+  Box2 Box() const;
 };
 
 /// Makes silhouettes (on their faces' left, as in Silhouette.h; closed ones repeat their first point),

@@ -214,7 +214,7 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
       add(p + 1 == snapped.PathStart[s + 1]
           ? segment.To
           : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]),
-        source.Shows != 0);
+        source.Shows != 0 || source.IsBare);
     }
   }
   // What is in no part, or too short in the image to have a path.
