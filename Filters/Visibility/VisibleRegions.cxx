@@ -28,7 +28,13 @@ struct Piece
 {
   LinePosition From, To;
   bool Visible;
+  bool IsOutline; // Of a smooth edge: a surface ends there in the image, as at a silhouette.
 };
+
+bool IsAlike(const Piece& a, const Piece& b)
+{
+  return a.Visible == b.Visible && a.IsOutline == b.IsOutline;
+}
 
 // All steps of one call.
 class RegionMaker
@@ -56,6 +62,7 @@ private:
   std::vector<LinePart> PartsInView(double pixel);
   bool MakeMap();
   void FillFaces();
+  bool IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const;
   std::vector<Piece> PiecesOf(std::int64_t line) const;
   void DrawLine(std::int64_t line, std::vector<DrawnLine>& out) const;
   void DrawLines();
@@ -184,6 +191,21 @@ void RegionMaker::FillFaces()
   }
 }
 
+// True if a smooth edge is what a silhouette would be: its surfaces are seen on one side of it only. Faces
+// may end just where they turn away, and have no silhouette of their own.
+bool RegionMaker::IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const
+{
+  if (line.Kind != LineKind::Smooth || (source.Shows != 1 && source.Shows != 2))
+  {
+    return false;
+  }
+  const ArrayView<LineSource> sources = this->Map.SourcesOf(edge);
+  return std::none_of(sources.begin(), sources.end(), [&](const LineSource& other) {
+    return this->Out.Lines.Lines[other.Line].Kind == LineKind::Silhouette &&
+      (other.Shows != 0 || other.IsBare);
+  });
+}
+
 // What of a line is visible, in order.
 std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
 {
@@ -191,21 +213,22 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
   const SnappedSegments& snapped = this->Map.Snapped;
   std::vector<Piece> out;
   double reached = 0.0;
-  const auto add = [&](LinePosition to, bool visible) {
-    if (to > reached && !out.empty() && out.back().Visible == visible)
+  const auto add = [&](LinePosition to, bool visible, bool isOutline) {
+    const Piece piece{ reached, to, visible, isOutline };
+    if (to > reached && !out.empty() && IsAlike(out.back(), piece))
     {
       out.back().To = to;
     }
     else if (to > reached)
     {
-      out.push_back({ reached, to, visible });
+      out.push_back(piece);
     }
     reached = std::max(reached, to);
   };
   for (std::int64_t s = this->Map.FirstSegment[index]; s < this->Map.FirstSegment[index + 1]; ++s)
   {
     const LinePart& segment = this->Map.Segments[s];
-    add(segment.From, false);
+    add(segment.From, false, false);
     for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
     {
       const bool backward = snapped.Path[p] < 0;
@@ -214,11 +237,11 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
       add(p + 1 == snapped.PathStart[s + 1]
           ? segment.To
           : this->Map.At(this->Out.Lines.Lines, source, snapped.Edges[edge][backward ? 0 : 1]),
-        source.Shows != 0 || source.IsBare);
+        source.Shows != 0 || source.IsBare, this->IsOutline(line, source, edge));
     }
   }
   // What is in no part, or too short in the image to have a path.
-  add(double(line.Points.size() - 1), false);
+  add(double(line.Points.size() - 1), false, false);
   return out;
 }
 
@@ -239,7 +262,7 @@ void DropShortPieces(const ViewLine& line, double shortest, std::vector<Piece>& 
   for (Piece piece : pieces)
   {
     const bool isShort = pieces.size() > 1 && length(piece) < shortest;
-    if (!kept.empty() && (isShort || kept.back().Visible == piece.Visible))
+    if (!kept.empty() && (isShort || IsAlike(kept.back(), piece)))
     {
       kept.back().To = piece.To;
     }
@@ -256,13 +279,13 @@ void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) cons
 {
   const ViewLine& line = this->Out.Lines.Lines[index];
   std::vector<Piece> pieces = line.IsBehind
-    ? std::vector<Piece>{ { 0.0, double(line.Points.size() - 1), false } }
+    ? std::vector<Piece>{ { 0.0, double(line.Points.size() - 1), false, false } }
     : this->PiecesOf(index);
   DropShortPieces(line, ShortestPiece * this->Map.Pixel, pieces);
   for (const Piece& piece : pieces)
   {
     DrawnLine drawn;
-    drawn.Kind = line.Kind;
+    drawn.Kind = piece.IsOutline ? LineKind::Silhouette : line.Kind;
     drawn.Visible = piece.Visible;
     drawn.Face = line.Face;
     drawn.Edge = line.Edge < this->Out.Lines.Whole.KnownEdges ? line.Edge : -1;

@@ -27,7 +27,7 @@
  * | points (double) | | on the surface; with ProjectLines: x (right) and y (up) in the image plane |
  * | point data | UV (double, 2) | parameters in the domain of the line's face |
  * | cell data | Visibility (unsigned char) | 1 visible, 0 hidden |
- * | cell data | Kind (unsigned char) | 0 silhouette, 1 boundary, 2 sharp edge, 3 smooth edge, 4 intersection of faces |
+ * | cell data | Kind (unsigned char) | 0 silhouette (or a smooth edge that is an outline), 1 boundary, 2 sharp edge, 3 smooth edge, 4 intersection of faces |
  * | cell data | EdgeId | the edge that the line is part of, as the input's trim curves name it; -1: none |
  * | cell data | FaceId and all other attributes of the input's faces | of the line's face (of an edge: the first that uses it; of an intersection: the first of the two) |
  *
