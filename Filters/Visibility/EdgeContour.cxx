@@ -13,20 +13,6 @@ namespace
 constexpr int SignSamples = 17;
 constexpr int MaxBisections = 50;
 
-// Outer normal . view of a use's face where the edge's parameter is t.
-double CosineAt(
-  const Model& model, const EdgeUse& use, const Interval& domain, const Viewer& viewer, double t)
-{
-  const Face& face = model.Faces[use.Face];
-  const TrimCurve& curve = model.TrimCurves[use.Curve];
-  const Vec2 on = Evaluate(curve.Geometry, TrimParameter(curve, domain, t));
-  const Vec2 uv(face.Geometry.Domain(0).Clamp(on[0]), face.Geometry.Domain(1).Clamp(on[1]));
-  const Vec3 view = viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]));
-  const double length = view.norm();
-  const double cosine = length > 0.0 ? Normal(face.Geometry, uv[0], uv[1]).dot(view) / length : 0.0;
-  return face.Reversed ? -cosine : cosine;
-}
-
 // Adds where a function of t changes its sign.
 template <typename Function>
 void AddSignChanges(const Function& f, const Interval& domain, std::vector<double>& out)
@@ -55,6 +41,19 @@ void AddSignChanges(const Function& f, const Interval& domain, std::vector<doubl
 
 } // namespace
 
+double CosineOfUse(
+  const Model& model, const EdgeUse& use, const Interval& domain, const Viewer& viewer, double t)
+{
+  const Face& face = model.Faces[use.Face];
+  const TrimCurve& curve = model.TrimCurves[use.Curve];
+  const Vec2 on = Evaluate(curve.Geometry, TrimParameter(curve, domain, t));
+  const Vec2 uv(face.Geometry.Domain(0).Clamp(on[0]), face.Geometry.Domain(1).Clamp(on[1]));
+  const Vec3 view = viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]));
+  const double length = view.norm();
+  const double cosine = length > 0.0 ? Normal(face.Geometry, uv[0], uv[1]).dot(view) / length : 0.0;
+  return face.Reversed ? -cosine : cosine;
+}
+
 std::vector<EdgeContour> ContoursOfEdge(const Model& model, std::int64_t edge,
   const std::vector<EdgeUse>& uses, const Viewer& viewer, double precision)
 {
@@ -63,15 +62,15 @@ std::vector<EdgeContour> ContoursOfEdge(const Model& model, std::int64_t edge,
   for (const EdgeUse& use : uses)
   {
     AddSignChanges(
-      [&](double t) { return CosineAt(model, use, domain, viewer, t); }, domain, breaks);
+      [&](double t) { return CosineOfUse(model, use, domain, viewer, t); }, domain, breaks);
   }
   std::sort(breaks.begin(), breaks.end());
   std::vector<EdgeContour> out;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
   {
     const double t = 0.5 * (breaks[k] + breaks[k + 1]);
-    const double first = CosineAt(model, uses[0], domain, viewer, t);
-    const double second = CosineAt(model, uses[1], domain, viewer, t);
+    const double first = CosineOfUse(model, uses[0], domain, viewer, t);
+    const double second = CosineOfUse(model, uses[1], domain, viewer, t);
     if (std::min(first, second) > -ContourCosine || std::max(first, second) < ContourCosine)
     {
       continue;

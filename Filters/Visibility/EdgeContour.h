@@ -20,6 +20,11 @@ struct EdgeContour
   double Ends[2] = { 0.0, 0.0 }; ///< Parameters of the trim curve at the first and last point.
 };
 
+/// Outer normal . view, of unit vectors, of a use's face where the parameter of the edge, which has the
+/// domain given, is t.
+double CosineOfUse(
+  const Model& model, const EdgeUse& use, const Interval& domain, const Viewer& viewer, double t);
+
 /// The parts of an edge with two uses. normal . view is looked at in 17 places of both faces and
 /// its changes of sign are bisected; what is within 1e-9 of 0 faces neither way.
 std::vector<EdgeContour> ContoursOfEdge(const Model& model, std::int64_t edge,

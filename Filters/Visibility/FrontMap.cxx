@@ -34,6 +34,15 @@ void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, Fro
       const Vec2 grid = (ImageAt(line, at) - map.Center) / map.Pixel;
       points.push_back({ std::llround(grid[0]), std::llround(grid[1]) });
     };
+    if (part.IsSnapped)
+    {
+      const auto first = std::int32_t(points.size());
+      points.insert(points.end(), part.Ends, part.Ends + 2);
+      segments.push_back({ first, first + 1 });
+      map.Segments.push_back(part);
+      ++map.FirstSegment[part.Line + 1];
+      continue;
+    }
     addPoint(part.From);
     for (LinePosition at = part.From; at < part.To;)
     {
@@ -41,7 +50,10 @@ void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, Fro
       addPoint(next);
       const auto last = std::int32_t(points.size() - 1);
       segments.push_back({ last - 1, last });
-      map.Segments.push_back({ part.Line, at, next });
+      map.Segments.emplace_back();
+      map.Segments.back().Line = part.Line;
+      map.Segments.back().From = at;
+      map.Segments.back().To = next;
       ++map.FirstSegment[part.Line + 1];
       at = next;
     }
@@ -129,14 +141,21 @@ LinePosition FrontMap::At(
   const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const
 {
   const LinePart& segment = this->Segments[source.Segment];
+  for (int end = 0; end < 2 && segment.IsSnapped; ++end)
+  {
+    if (this->Snapped.Vertices[vertex] == segment.Ends[end] || segment.From == segment.To)
+    {
+      return end == 0 ? segment.From : segment.To;
+    }
+  }
   const Vec2 a = ImageAt(lines[source.Line], segment.From);
   const Vec2 along = ImageAt(lines[source.Line], segment.To) - a;
   const double share = along.dot(this->VertexImage(vertex) - a) / along.squaredNorm();
   // Within a pixel's reach of an end of the segment it is the end.
-  const double reach = this->Pixel / along.norm();
-  return share < reach    ? segment.From
-    : share > 1.0 - reach ? segment.To
-                          : segment.From + share * (segment.To - segment.From);
+  const double reach = std::min(0.5, this->Pixel / along.norm());
+  return share < reach     ? segment.From
+    : share >= 1.0 - reach ? segment.To
+                           : segment.From + share * (segment.To - segment.From);
 }
 
 std::vector<LinePart> LinesInView(const ViewLines& lines)
@@ -146,7 +165,9 @@ std::vector<LinePart> LinesInView(const ViewLines& lines)
   {
     if (!lines.Lines[l].IsBehind)
     {
-      out.push_back({ std::int32_t(l), 0.0, double(lines.Lines[l].Points.size() - 1) });
+      out.emplace_back();
+      out.back().Line = std::int32_t(l);
+      out.back().To = double(lines.Lines[l].Points.size() - 1);
     }
   }
   return out;
@@ -168,9 +189,8 @@ FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at
   return out;
 }
 
-FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
-  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
-  const std::function<bool(double)>& progress)
+FrontMap MakeLineMap(const ViewLines& lines, const std::vector<LinePart>& parts, double pixel,
+  const ParallelFor& parallel)
 {
   FrontMap map;
   map.Pixel = pixel;
@@ -189,8 +209,109 @@ FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts
   map.Snapped = SnapRound(points, segments, parallel);
   map.Plane = MakePlanarMap(map.Snapped, SamplesPerCell);
   CollectSources(map);
+  return map;
+}
+
+FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts,
+  const ImagePlane& image, const RayCaster& caster, double pixel, const ParallelFor& parallel,
+  const std::function<bool(double)>& progress)
+{
+  FrontMap map = MakeLineMap(lines, parts, pixel, parallel);
   LookAtCells(image, caster, parallel, progress, map);
   return map;
+}
+
+LineWalk::LineWalk(const std::vector<ViewLine>& lines, const FrontMap& map)
+  : Lines(lines)
+  , Map(map)
+  , Degree(map.Snapped.Vertices.size(), 0)
+{
+  for (const auto& ends : map.Snapped.Edges)
+  {
+    ++this->Degree[ends[0]];
+    ++this->Degree[ends[1]];
+  }
+}
+
+std::vector<LineStep> LineWalk::Steps(std::int64_t line) const
+{
+  std::vector<LineStep> out;
+  const SnappedSegments& snapped = this->Map.Snapped;
+  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
+  {
+    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
+    {
+      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
+      std::int64_t k = this->Map.SourceStart[edge];
+      while (this->Map.Sources[k].Segment != s)
+      {
+        ++k;
+      }
+      out.push_back({ edge, k });
+    }
+  }
+  return out;
+}
+
+LinePosition LineWalk::Start(const LineStep& step) const
+{
+  const LineSource& source = this->Map.Sources[step.Source];
+  return this->Map.At(
+    this->Lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 1 : 0]);
+}
+
+LinePosition LineWalk::End(const LineStep& step) const
+{
+  const LineSource& source = this->Map.Sources[step.Source];
+  return this->Map.At(
+    this->Lines, source, this->Map.Snapped.Edges[step.Edge][source.Backward ? 0 : 1]);
+}
+
+// True if a silhouette ends on the line after the middle of the one step and before that of the next.
+bool LineWalk::TurnsBetween(const LineStep& before, const LineStep& step) const
+{
+  const std::vector<LinePosition>& turns = this->Lines[this->Map.Sources[step.Source].Line].Turns;
+  if (turns.empty())
+  {
+    return false;
+  }
+  const auto middle = [&](
+                        const LineStep& one) { return 0.5 * (this->Start(one) + this->End(one)); };
+  const auto next = std::lower_bound(turns.begin(), turns.end(), middle(before));
+  return next != turns.end() && *next < middle(step);
+}
+
+std::size_t LineWalk::GroupEnd(const std::vector<LineStep>& steps, std::size_t first) const
+{
+  std::size_t last = first + 1;
+  while (last < steps.size())
+  {
+    const LineStep& step = steps[last];
+    const int start = this->Map.Sources[step.Source].Backward ? 1 : 0;
+    if (this->Degree[this->Map.Snapped.Edges[step.Edge][start]] != 2 ||
+      this->TurnsBetween(steps[last - 1], step) ||
+      this->Cell(step, 0) != this->Cell(steps[first], 0) ||
+      this->Cell(step, 1) != this->Cell(steps[first], 1))
+    {
+      break;
+    }
+    ++last;
+  }
+  return last;
+}
+
+const LineStep& LineWalk::Widest(
+  const std::vector<LineStep>& steps, std::size_t first, std::size_t last, int lineSide) const
+{
+  const auto room = [&](std::size_t k) {
+    return this->Map.Plane.SideSamples[steps[k].Edge][this->Side(steps[k], lineSide)].Radius;
+  };
+  std::size_t best = first + (last - first) / 2;
+  for (std::size_t k = first; k < last; ++k)
+  {
+    best = room(k) > room(best) ? k : best;
+  }
+  return steps[best];
 }
 
 namespace
@@ -330,67 +451,36 @@ public:
     , Image(image)
     , Caster(caster)
     , Map(map)
-    , Degree(map.Snapped.Vertices.size(), 0)
-  {
-    for (const auto& ends : map.Snapped.Edges)
-    {
-      ++this->Degree[ends[0]];
-      ++this->Degree[ends[1]];
-    }
-  }
+    , Walk(lines.Lines, map)
+  {}
 
   void Find(std::int64_t line);
 
 private:
-  // The source of a line along one edge.
-  struct Step
-  {
-    std::int32_t Edge;
-    std::int64_t Source;
-  };
-
-  std::vector<Step> Steps(std::int64_t line) const;
-  bool StartsAtNode(const Step& step) const;
-  bool Shows(const ViewLine& line, const Step& step, int side) const;
+  bool Shows(const ViewLine& line, const LineStep& step, int side) const;
 
   const ViewLines& Lines;
   const ImagePlane& Image;
   const RayCaster& Caster;
   FrontMap& Map;
-  std::vector<std::int32_t> Degree; // Edges at each vertex.
+  LineWalk Walk;
 };
 
-// Where other lines meet this one; it may become hidden there although one of its cells goes on: all
-// lines touch the silhouette at which they turn away.
-bool ShownLines::StartsAtNode(const Step& step) const
-{
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  return this->Degree[ends[this->Map.Sources[step.Source].Backward ? 1 : 0]] != 2;
-}
-
-std::vector<ShownLines::Step> ShownLines::Steps(std::int64_t line) const
-{
-  std::vector<Step> out;
-  const SnappedSegments& snapped = this->Map.Snapped;
-  for (std::int64_t s = this->Map.FirstSegment[line]; s < this->Map.FirstSegment[line + 1]; ++s)
-  {
-    for (std::int64_t p = snapped.PathStart[s]; p < snapped.PathStart[s + 1]; ++p)
-    {
-      const std::int32_t edge = FrontMap::EdgeOf(snapped.Path[p]);
-      std::int64_t k = this->Map.SourceStart[edge];
-      while (this->Map.Sources[k].Segment != s)
-      {
-        ++k;
-      }
-      out.push_back({ edge, k });
-    }
-  }
-  return out;
-}
-
-bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
+bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
 {
   const LineSource& source = this->Map.Sources[step.Source];
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  const double at = 0.5 *
+    (this->Map.At(this->Lines.Lines, source, ends[0]) +
+      this->Map.At(this->Lines.Lines, source, ends[1]));
+  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
+  if (line.IsIntersection())
+  {
+    // Both faces are seen on both sides of it, where nothing is in front.
+    const FrontHit there = LookAt(this->Caster, this->Image, this->Image.Project(point));
+    return there.Face < 0 ||
+      this->Image.Depth(point) - this->Image.Depth(there.Point) <= this->Map.Pixel;
+  }
   const Vec2 beside = this->Map.Beside(step.Edge, side);
   const FrontHit& front = this->Map.Front(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
@@ -398,14 +488,10 @@ bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
   {
     return true; // Too near to tell; what the cell says goes.
   }
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  const double at = 0.5 *
-    (this->Map.At(this->Lines.Lines, source, ends[0]) +
-      this->Map.At(this->Lines.Lines, source, ends[1]));
-  const Vec3 point = ExactPointAt(this->Lines, line, at).Point;
   const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
   Vec2 uv = hit.UV;
-  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, uv);
+  const int sheet = hit.FromBehind == this->Lines.Whole.Data.Faces[hit.Face].Reversed ? 1 : -1;
+  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, sheet, uv);
   return (Evaluate(surface, uv[0], uv[1]) - point).norm() <=
     NearerShare * (hit.Point - point).norm();
 }
@@ -414,48 +500,25 @@ bool ShownLines::Shows(const ViewLine& line, const Step& step, int side) const
 void ShownLines::Find(std::int64_t index)
 {
   const ViewLine& line = this->Lines.Lines[index];
-  const std::vector<Step> steps = this->Steps(index);
-  const auto cellOf = [&](const Step& step, int lineSide) {
-    const int side = this->Map.Sources[step.Source].Backward ? 1 - lineSide : lineSide;
-    return this->Map.Cell(step.Edge, side);
-  };
-  for (int lineSide = 0; lineSide < 2; ++lineSide)
+  const std::vector<LineStep> steps = this->Walk.Steps(index);
+  for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
+    last = this->Walk.GroupEnd(steps, first);
     // A silhouette has its own surface on its left only.
-    if (lineSide == 1 && !line.IsEdge() && !line.IsIntersection())
+    const int sides = line.IsEdge() || line.IsIntersection() ? 2 : 1;
+    for (int lineSide = 0; lineSide < sides; ++lineSide)
     {
-      continue;
-    }
-    for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
-    {
-      const std::int32_t cell = cellOf(steps[first], lineSide);
-      for (last = first + 1; last < steps.size() && cellOf(steps[last], lineSide) == cell &&
-           !this->StartsAtNode(steps[last]);)
-      {
-        ++last;
-      }
-      const auto sideOf = [&](std::size_t k) {
-        return this->Map.Sources[steps[k].Source].Backward ? 1 - lineSide : lineSide;
-      };
-      const auto room = [&](std::size_t k) {
-        return this->Map.Plane.SideSamples[steps[k].Edge][sideOf(k)].Radius;
-      };
-      // Where there is room, and far from the ends, where sheets may be near to each other.
-      std::size_t best = first + (last - first) / 2;
-      for (std::size_t k = first; k < last; ++k)
-      {
-        best = room(k) > room(best) ? k : best;
-      }
-      const std::int64_t face = this->Map.Cells[cell].Face;
-      const int side = sideOf(best);
-      if (face < 0 || !IsOfFace(this->Lines, line, face) || !this->Shows(line, steps[best], side))
+      const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
+      const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
+      if (face < 0 || !IsOfFace(this->Lines, line, face) ||
+        !this->Shows(line, best, this->Walk.Side(best, lineSide)))
       {
         continue;
       }
       for (std::size_t k = first; k < last; ++k)
       {
-        LineSource& source = this->Map.Sources[steps[k].Source];
-        source.Shows |= std::uint8_t(1 << sideOf(k));
+        this->Map.Sources[steps[k].Source].Shows |=
+          std::uint8_t(1 << this->Walk.Side(steps[k], lineSide));
       }
     }
   }

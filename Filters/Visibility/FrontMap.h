@@ -29,7 +29,11 @@ struct FrontHit
 struct LinePart
 {
   std::int32_t Line = -1;
-  LinePosition From = 0.0, To = 0.0; ///< From < To.
+  LinePosition From = 0.0, To = 0.0; ///< From <= To.
+  /// It is an edge of another map of the same lines, and runs straight between these vertices of it, so
+  /// that what met there meets again.
+  bool IsSnapped = false;
+  GridPoint Ends[2];
 };
 
 /// A line that runs along an edge of the map.
@@ -91,11 +95,58 @@ struct FrontMap
     const std::vector<ViewLine>& lines, const LineSource& source, std::int32_t vertex) const;
 };
 
+/// A line along one edge of the map.
+struct LineStep
+{
+  std::int32_t Edge;
+  std::int64_t Source; ///< Index into FrontMap::Sources.
+};
+
+/// Follows lines through a map.
+class LineWalk
+{
+public:
+  LineWalk(const std::vector<ViewLine>& lines, const FrontMap& map);
+
+  /// All steps of a line, in order.
+  std::vector<LineStep> Steps(std::int64_t line) const;
+  /// The side of the step's edge that is the line's left (0) or right (1) side.
+  int Side(const LineStep& step, int lineSide) const
+  {
+    return this->Map.Sources[step.Source].Backward ? 1 - lineSide : lineSide;
+  }
+  std::int32_t Cell(const LineStep& step, int lineSide) const
+  {
+    return this->Map.Cell(step.Edge, this->Side(step, lineSide));
+  }
+  /// Positions of a step's ends on its line.
+  LinePosition Start(const LineStep& step) const;
+  LinePosition End(const LineStep& step) const;
+  /// The end of the steps from `first` on along which nothing changes beside the line: no other line
+  /// meets it, and no silhouette ends on it. (A line may become hidden where its cell goes on: all
+  /// lines touch the silhouette at which they turn away.)
+  std::size_t GroupEnd(const std::vector<LineStep>& steps, std::size_t first) const;
+  /// The step of a group where there is most room on a side; about the middle one if there is enough.
+  const LineStep& Widest(
+    const std::vector<LineStep>& steps, std::size_t first, std::size_t last, int lineSide) const;
+
+private:
+  bool TurnsBetween(const LineStep& before, const LineStep& step) const;
+
+  const std::vector<ViewLine>& Lines;
+  const FrontMap& Map;
+  std::vector<std::int32_t> Degree; // Edges at each vertex.
+};
+
 /// Looks along a line of sight.
 FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at);
 
 /// All lines that are not IsBehind, whole.
 std::vector<LinePart> LinesInView(const ViewLines& lines);
+
+/// The map without a look at its cells: Cells and Piercing stay empty.
+FrontMap MakeLineMap(const ViewLines& lines, const std::vector<LinePart>& parts, double pixel,
+  const ParallelFor& parallel);
 
 /// Makes the map of parts of lines, given by line and in order. `pixel`: a length. Stops early, with no cells, when
 /// `progress`, which is called from this thread, returns false.

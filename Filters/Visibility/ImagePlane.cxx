@@ -11,6 +11,10 @@ namespace
 {
 
 constexpr int MaxIterations = 24;
+constexpr int MaxHalvings = 12;
+// Steps longer than this share of the domain are looked at in so many places.
+constexpr double LongStep = 1e-3;
+constexpr int StepLooks = 8;
 // The nearest depth of a perspective view, as a share of the farthest.
 constexpr double NearestDepth = 1e-6;
 
@@ -123,47 +127,71 @@ SightPlanes ImagePlane::Planes(const Vec2& image) const
 }
 
 bool ImagePlane::Lift(
-  const SurfaceView& surface, const Vec2& image, double tolerance, Vec2& uv) const
+  const SurfaceView& surface, const Vec2& image, double tolerance, int sheet, Vec2& uv) const
 {
   const Interval u = surface.Domain(0);
   const Interval v = surface.Domain(1);
   const SightPlanes planes = this->Planes(image);
-  Vec2 at(u.Clamp(uv[0]), v.Clamp(uv[1]));
-  double least = 1e300;
-  for (int k = 0; k < MaxIterations; ++k)
+  struct State
   {
-    const SurfaceDerivatives d = EvaluateDerivatives(surface, at[0], at[1], 1);
-    const Vec2 miss(
-      planes.Normal[0].dot(d.S) - planes.Offset[0], planes.Normal[1].dot(d.S) - planes.Offset[1]);
-    const double distance = miss.norm();
-    if (distance < least)
+    Vec2 UV, Miss;
+    Eigen::Matrix2d Jacobian;
+  };
+  const auto at = [&](const Vec2& where) {
+    State out;
+    out.UV = Vec2(u.Clamp(where[0]), v.Clamp(where[1]));
+    const SurfaceDerivatives d = EvaluateDerivatives(surface, out.UV[0], out.UV[1], 1);
+    for (int k = 0; k < 2; ++k)
     {
-      least = distance;
-      uv = at;
+      out.Miss[k] = planes.Normal[k].dot(d.S) - planes.Offset[k];
+      out.Jacobian(k, 0) = planes.Normal[k].dot(d.Su);
+      out.Jacobian(k, 1) = planes.Normal[k].dot(d.Sv);
     }
-    if (distance <= 1e-3 * tolerance)
-    {
-      break;
-    }
-    Eigen::Matrix2d jacobian;
-    jacobian << planes.Normal[0].dot(d.Su), planes.Normal[0].dot(d.Sv), planes.Normal[1].dot(d.Su),
-      planes.Normal[1].dot(d.Sv);
-    const double determinant = jacobian.determinant();
-    const double size = jacobian.norm();
-    if (!(std::abs(determinant) > 1e-14 * size * size))
+    return out;
+  };
+  State now = at(uv);
+  uv = now.UV;
+  double least = now.Miss.norm();
+  for (int k = 0; k < MaxIterations && least > 1e-3 * tolerance; ++k)
+  {
+    const double size = now.Jacobian.norm();
+    if (!(std::abs(now.Jacobian.determinant()) > 1e-14 * size * size))
     {
       break;
     }
     // Steps of half the domain at most: farther, the linear model says nothing.
-    Vec2 step = jacobian.inverse() * miss;
+    Vec2 step = now.Jacobian.inverse() * now.Miss;
     const double share = std::max(std::abs(step[0]) / u.Length(), std::abs(step[1]) / v.Length());
     step *= share > 0.5 ? 0.5 / share : 1.0;
-    const Vec2 next(u.Clamp(at[0] - step[0]), v.Clamp(at[1] - step[1]));
-    if (next == at)
+    State next = at(now.UV - step);
+    // Not beyond the fold, and, if the step is long, not to another sheet behind it.
+    const auto leavesSheet = [&]() {
+      bool leaves = next.Jacobian.determinant() * sheet < 0.0;
+      const int looks =
+        std::max(std::abs(step[0]) / u.Length(), std::abs(step[1]) / v.Length()) > LongStep
+        ? StepLooks
+        : 1;
+      for (int i = 1; i < looks && !leaves; ++i)
+      {
+        leaves = at(now.UV - double(i) / looks * step).Jacobian.determinant() * sheet < 0.0;
+      }
+      return leaves;
+    };
+    for (int half = 0; half < MaxHalvings && sheet != 0 && leavesSheet(); ++half)
+    {
+      step *= 0.5;
+      next = at(now.UV - step);
+    }
+    if (next.UV == now.UV)
     {
       break;
     }
-    at = next;
+    now = next;
+    if (now.Miss.norm() < least && now.Jacobian.determinant() * sheet >= 0.0)
+    {
+      least = now.Miss.norm();
+      uv = now.UV;
+    }
   }
   return least <= tolerance;
 }

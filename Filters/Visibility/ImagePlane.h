@@ -42,9 +42,11 @@ public:
   const Vec3& Axis(int k) const { return this->Axes[k]; }
 
   /// Moves (u, v) on the surface (not its trimmed part alone) to where an image point is seen, by
-  /// Newton's method from the uv given. False if it does not come within `tolerance` in the image, a
-  /// length; uv is the nearest place met, then.
-  bool Lift(const SurfaceView& surface, const Vec2& image, double tolerance, Vec2& uv) const;
+  /// Newton's method from the uv given, on its sheet: where S_u x S_v faces the viewer (`sheet` 1) or
+  /// away (-1), or wherever (0). False if it does not come within `tolerance` in the image, a length; uv
+  /// is the nearest place met, then: for an image point beyond the silhouette about a point of that.
+  bool Lift(
+    const SurfaceView& surface, const Vec2& image, double tolerance, int sheet, Vec2& uv) const;
 
 private:
   Viewer View;

@@ -73,7 +73,7 @@ public:
 
   // The farthest vertex from `from` on, forwards or backwards, to which a straight line keeps
   // within `bow` of all vertices between, by the sector of directions that they leave; the first
-  // neighbour at least. Indices of a loop go on past its ends.
+  // neighbour at least, or `from` where there is none. Indices of a loop go on past its ends.
   std::ptrdiff_t Reach(std::ptrdiff_t from, int step, double bow) const;
 
   Vec2 At(std::ptrdiff_t k) const
@@ -109,6 +109,10 @@ std::ptrdiff_t Section::Reach(std::ptrdiff_t from, int step, double bow) const
 {
   const std::ptrdiff_t end =
     this->Loop ? from + step * (this->Last - 1) : (step > 0 ? this->Last : 0);
+  if (from == end)
+  {
+    return from;
+  }
   const Vec2 origin = this->At(from);
   Vec2 axis = Vec2::Zero();
   double low = -Pi, high = Pi, farthest = 0.0;
@@ -237,7 +241,7 @@ Vec2 Section::Tangent(std::size_t at) const
   const Vec2 after = this->At(this->Reach(k, 1, bow)) - this->At(k);
   const double a = before.squaredNorm(), b = after.squaredNorm();
   const Vec2 tangent = before * b + after * a;
-  return tangent.isZero() ? after.normalized() : tangent.normalized();
+  return !tangent.isZero() ? tangent.normalized() : (b > 0.0 ? after : before).normalized();
 }
 
 // The longest piece that starts at `first` and keeps within the tolerance, by doubling and

@@ -256,8 +256,15 @@ private:
   void AddOwn(const Step& first, const Step& last, RegionLoop& out) const;
   void AddShadow(
     const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out);
-  void RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB, const Vec2& b, int depth,
-    std::vector<Vec2>& out) const;
+  // A point of a shadow.
+  struct ShadowPoint
+  {
+    Vec2 Image;
+    Vec2 UV;
+  };
+
+  void RefineShadow(
+    const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const;
   Vec2 Seed(HalfEdge half) const;
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
   void DropExcursions(RegionLoop& loop) const;
@@ -314,7 +321,8 @@ void RegionLifter::AddCandidates(HalfEdge half, std::vector<Candidate>& out) con
         this->Map.At(this->Lines.Lines, source, ends[1]));
     if (!line.IsEdge())
     {
-      out.push_back({ &source, -1, ParametersAt(line, middle, this->FaceIndex), line.Edge < 0 ? 1.0 : 4.0 });
+      out.push_back(
+        { &source, -1, ParametersAt(line, middle, this->FaceIndex), line.Edge < 0 ? 1.0 : 4.0 });
       continue;
     }
     RegionPiece piece;
@@ -417,50 +425,71 @@ Vec2 RegionLifter::Seed(HalfEdge half) const
 }
 
 // Adds points between two of a shadow till the lifted middle is on the chord.
-void RegionLifter::RefineShadow(const Vec2& imageA, const Vec2& a, const Vec2& imageB,
-  const Vec2& b, int depth, std::vector<Vec2>& out) const
+void RegionLifter::RefineShadow(
+  const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const
 {
   if (depth == 0)
   {
     return;
   }
-  const Vec2 image = 0.5 * (imageA + imageB);
-  const Vec2 straight = 0.5 * (a + b);
-  Vec2 middle = straight;
-  if (!this->Image.Lift(this->Surface, image, this->Precision, middle) ||
-    (this->Point(middle) - this->Point(straight)).norm() <= this->Precision)
+  const Vec2 straight = 0.5 * (a.UV + b.UV);
+  ShadowPoint middle{ 0.5 * (a.Image + b.Image), straight };
+  if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
+  {
+    middle.UV = a.UV;
+    if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
+    {
+      return;
+    }
+  }
+  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision)
   {
     return;
   }
-  this->RefineShadow(imageA, a, image, middle, depth - 1, out);
-  out.push_back(middle);
-  this->RefineShadow(image, middle, imageB, b, depth - 1, out);
+  this->RefineShadow(a, middle, sheet, depth - 1, out);
+  out.push_back(middle.UV);
+  this->RefineShadow(middle, b, sheet, depth - 1, out);
 }
 
+// Each point is found from what is seen beside the border: from the one before, the way may lead to
+// another sheet, where two of them part at a cusp of the silhouette that casts the shadow.
 void RegionLifter::AddShadow(
   const std::vector<Step>& steps, std::size_t begin, std::size_t end, RegionLoop& out)
 {
   const auto image = [&](const Step& step, LinePosition at) {
     return ImageAt(this->Lines.Lines[step.Source->Line], at);
   };
+  const auto lift = [&](const Vec2& seed, const Vec2& before, int sheet, ShadowPoint& point) {
+    point.UV = seed;
+    if (!this->Image.Lift(this->Surface, point.Image, this->Precision, sheet, point.UV))
+    {
+      ShadowPoint other{ point.Image, before };
+      this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
+      const auto miss = [&](const ShadowPoint& one) {
+        return (this->Image.Project(this->Point(one.UV)) - one.Image).norm();
+      };
+      point = miss(other) < miss(point) ? other : point;
+    }
+  };
   RegionPiece piece;
-  Vec2 uv = this->Seed(steps[begin].Half);
-  Vec2 at = image(steps[begin], steps[begin].From);
-  this->Image.Lift(this->Surface, at, this->Precision, uv);
-  piece.Polyline.push_back(uv);
+  ShadowPoint before{ image(steps[begin], steps[begin].From), Vec2::Zero() };
   for (std::size_t k = begin; k < end; ++k)
   {
-    const Vec2 next = image(steps[k], steps[k].To);
-    Vec2 nextUV = uv;
-    if (!this->Image.Lift(this->Surface, next, this->Precision, nextUV))
+    const int sheet = this->IsFlipped(steps[k].Half) ? -1 : 1;
+    const Vec2 seed = this->Seed(steps[k].Half);
+    if (k == begin)
     {
-      nextUV = this->Seed(steps[k].Half);
-      this->Image.Lift(this->Surface, next, this->Precision, nextUV);
+      // What is seen beside may be far off where there is no room; the border comes from near.
+      const bool isFirst = out.empty();
+      lift(
+        seed, isFirst ? seed : EndOfPiece(this->Lines.Whole.Data, out.back(), true), sheet, before);
+      piece.Polyline.push_back(before.UV);
     }
-    this->RefineShadow(at, uv, next, nextUV, MaxShadowDepth, piece.Polyline);
-    piece.Polyline.push_back(nextUV);
-    uv = nextUV;
-    at = next;
+    ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
+    lift(seed, before.UV, sheet, next);
+    this->RefineShadow(before, next, sheet, MaxShadowDepth, piece.Polyline);
+    piece.Polyline.push_back(next.UV);
+    before = next;
   }
   out.push_back(std::move(piece));
 }
@@ -544,7 +573,11 @@ void RegionLifter::Close(RegionLoop& loop) const
     const bool isNear = (this->Point(end) - this->Point(start)).norm() <= 8.0 * this->Precision &&
       std::abs(end[0] - start[0]) < FarParameters * this->Surface.Domain(0).Length() &&
       std::abs(end[1] - start[1]) < FarParameters * this->Surface.Domain(1).Length();
-    bool joined = end == start;
+    // Gaps that the model's own loops may have.
+    bool joined =
+      std::abs(end[0] - start[0]) <= SameParameters * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) <= SameParameters * this->Surface.Domain(1).Length();
+    joined = end == start || (joined && piece.Curve >= 0 && next.Curve >= 0);
     if (!joined && isNear && next.Curve < 0 && next.Polyline.size() > 1)
     {
       next.Polyline.front() = end;
@@ -576,15 +609,13 @@ RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
   {
     steps.push_back(this->Classify(half));
   }
-  // Start where a piece starts.
-  for (std::size_t k = 1; k < steps.size(); ++k)
+  // Start where a piece starts, an own one if there is any: shadows start where the one before ends.
+  std::size_t start = 0;
+  for (std::size_t k = 1; k < steps.size() && (start == 0 || steps[start].IsShadow); ++k)
   {
-    if (!this->Continues(steps[k - 1], steps[k]))
-    {
-      std::rotate(steps.begin(), steps.begin() + std::ptrdiff_t(k), steps.end());
-      break;
-    }
+    start = this->Continues(steps[k - 1], steps[k]) ? start : k;
   }
+  std::rotate(steps.begin(), steps.begin() + std::ptrdiff_t(start), steps.end());
   RegionLoop out;
   for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {

@@ -13,7 +13,8 @@ namespace
 constexpr double ZeroGap = 1e-12;
 constexpr double ZeroStep = 1e-11;
 
-// The parameters' part of a vector in the tangent plane.
+} // namespace
+
 Vec2 ParametersOf(const SurfaceDerivatives& d, const Vec3& way)
 {
   const double uu = d.Su.squaredNorm();
@@ -24,8 +25,6 @@ Vec2 ParametersOf(const SurfaceDerivatives& d, const Vec3& way)
   const double det = uu * vv - uv * uv;
   return Vec2(vv * u - uv * v, uu * v - uv * u) / det;
 }
-
-} // namespace
 
 SurfacePair::SurfacePair(const SurfaceEvaluator& a, const Box2& boxA, const SurfaceEvaluator& b,
   const Box2& boxB, double size)
@@ -49,43 +48,35 @@ bool SurfacePair::IsInBox(int side, const Vec2& uv, double share) const
 
 bool SurfacePair::MoveToPlane(const Vec3& place, const Vec3& normal, IntersectionPoint& point)
 {
-  for (int k = 0; k < MaxPairSteps; ++k)
-  {
-    const SurfaceDerivatives a = this->Surfaces[0].Derivatives(point.UV[0][0], point.UV[0][1], 1);
-    const SurfaceDerivatives b = this->Surfaces[1].Derivatives(point.UV[1][0], point.UV[1][1], 1);
-    point.Point = 0.5 * (a.S + b.S);
-    // Within each tangent plane: the nearest to the plane and the other one, by normals, which
-    // keeps a system of three unknowns.
-    const Vec3 na = a.Su.cross(a.Sv);
-    const Vec3 nb = b.Su.cross(b.Sv);
-    Eigen::Matrix3d m;
-    m.row(0) = na.normalized();
-    m.row(1) = nb.normalized();
-    m.row(2) = normal;
-    const Vec3 right(m.row(0).dot(a.S), m.row(1).dot(b.S), normal.dot(place));
-    const Vec3 next = m.inverse() * right;
-    if (!next.allFinite())
+  return FindCommonPoint(
+    [&](int side, const Vec2& uv) { return this->Surfaces[side].Derivatives(uv[0], uv[1], 1); },
+    place, normal, [&](double gap, double move) { return this->Converged(gap, move); },
+    [&](
+      const IntersectionPoint& p) { return this->IsNear(0, p.UV[0]) && this->IsNear(1, p.UV[1]); },
+    point);
+}
+
+bool FindCommonPoint(const SurfaceView& a, const SurfaceView& b, const Vec3& place,
+  const Vec3& normal, IntersectionPoint& point)
+{
+  const SurfaceView* surfaces[2] = { &a, &b };
+  const double size = place.cwiseAbs().maxCoeff() + (point.Point - place).norm();
+  const auto isInside = [&](const IntersectionPoint& p) {
+    bool out = true;
+    for (int k = 0; k < 4; ++k)
     {
-      return false;
+      const Interval domain = surfaces[k / 2]->Domain(k % 2);
+      const double t = p.UV[k / 2][k % 2];
+      const double margin = 1e-3 * domain.Length();
+      out = out && t >= domain.Min - margin && t <= domain.Max + margin;
     }
-    const Vec2 stepA = ParametersOf(a, next - a.S);
-    const Vec2 stepB = ParametersOf(b, next - b.S);
-    if (!stepA.allFinite() || !stepB.allFinite())
-    {
-      return false;
-    }
-    if (this->Converged((a.S - b.S).norm(), (next - a.S).norm() + (next - b.S).norm()))
-    {
-      return true;
-    }
-    point.UV[0] += stepA;
-    point.UV[1] += stepB;
-    if (!this->IsNear(0, point.UV[0]) || !this->IsNear(1, point.UV[1]))
-    {
-      return false;
-    }
-  }
-  return false;
+    return out;
+  };
+  return FindCommonPoint(
+    [&](int side, const Vec2& uv) { return EvaluateDerivatives(*surfaces[side], uv[0], uv[1], 1); },
+    place, normal,
+    [&](double gap, double move) { return gap <= ZeroGap * size && move <= ZeroStep * size; },
+    isInside, point);
 }
 
 CrossingFrame SurfacePair::Frame(const IntersectionPoint& point)

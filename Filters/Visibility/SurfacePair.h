@@ -27,6 +27,17 @@ struct CrossingFrame
   Vec2 AcrossUV[2];            ///< Across are in (u, v).
 };
 
+/// Newton's method for a point of two surfaces in the plane through `place` orthogonal to `normal`.
+/// `evaluate(side, uv)` gives first derivatives; `isDone(gap, move)` looks at the distance of the
+/// two surfaces' points and the next step; `isValid(point)` at parameters. False: it fails.
+template <typename Evaluate, typename IsDone, typename IsValid>
+bool FindCommonPoint(const Evaluate& evaluate, const Vec3& place, const Vec3& normal,
+  const IsDone& isDone, const IsValid& isValid, IntersectionPoint& point);
+
+/// The same for two surfaces by name, to rounding. Within their domains.
+bool FindCommonPoint(const SurfaceView& a, const SurfaceView& b, const Vec3& place,
+  const Vec3& normal, IntersectionPoint& point);
+
 /// Two surfaces, each within a box of its domain. Not for more than one thread.
 class SurfacePair
 {
@@ -66,6 +77,44 @@ private:
 
 /// Steps of Newton's method, at most.
 inline constexpr int MaxPairSteps = 20;
+
+/// The coordinates in (u, v) of a vector in the tangent plane; of another one: of its projection.
+Vec2 ParametersOf(const SurfaceDerivatives& d, const Vec3& way);
+
+template <typename Evaluate, typename IsDone, typename IsValid>
+bool FindCommonPoint(const Evaluate& evaluate, const Vec3& place, const Vec3& normal,
+  const IsDone& isDone, const IsValid& isValid, IntersectionPoint& point)
+{
+  for (int k = 0; k < MaxPairSteps; ++k)
+  {
+    const SurfaceDerivatives d[2] = { evaluate(0, point.UV[0]), evaluate(1, point.UV[1]) };
+    point.Point = 0.5 * (d[0].S + d[1].S);
+    // Where both tangent planes and the plane meet.
+    Eigen::Matrix3d m;
+    m.row(0) = d[0].Su.cross(d[0].Sv).normalized();
+    m.row(1) = d[1].Su.cross(d[1].Sv).normalized();
+    m.row(2) = normal;
+    const Vec3 right(m.row(0).dot(d[0].S), m.row(1).dot(d[1].S), normal.dot(place));
+    const Vec3 next = m.inverse() * right;
+    if (!next.allFinite())
+    {
+      return false;
+    }
+    if (isDone((d[0].S - d[1].S).norm(), (next - d[0].S).norm() + (next - d[1].S).norm()))
+    {
+      return true;
+    }
+    for (int side = 0; side < 2; ++side)
+    {
+      point.UV[side] += ParametersOf(d[side], next - d[side].S);
+    }
+    if (!point.UV[0].allFinite() || !point.UV[1].allFinite() || !isValid(point))
+    {
+      return false;
+    }
+  }
+  return false;
+}
 
 template <typename Curve>
 bool SurfacePair::MoveAlongCurve(int side, const Curve& curve, double& t, IntersectionPoint& point)

@@ -197,6 +197,14 @@ void InsertEnds(const ViewLines& lines, std::vector<EdgeEnd> ends, ViewLine& lin
     line.Shares.insert(above, end.Share);
     line.Points.insert(line.Points.begin() + k, point);
   }
+  for (std::size_t k = 0; k < line.Shares.size(); ++k)
+  {
+    if (std::any_of(ends.begin(), ends.end(),
+          [&](const EdgeEnd& end) { return std::abs(end.Share - line.Shares[k]) < SameShare; }))
+    {
+      line.Turns.push_back(double(k));
+    }
+  }
 }
 
 // Moves the image of a line that ends at a vertex to that of the vertex. Elsewhere on an edge, it is the
@@ -334,12 +342,17 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   }
   const auto edges = std::int64_t(out.Whole.Data.Edges.size());
   std::vector<std::vector<EdgeEnd>> ends(edges);
+  std::vector<char> meets(edges, 0);
   for (SilhouetteLine& source : silhouettes.Lines)
   {
     ViewLine line;
     line.Crease = source.Crease;
     line.Face = source.Face;
     line.Edge = source.Edge;
+    if (line.Edge >= 0)
+    {
+      meets[line.Edge] = 1;
+    }
     line.Points = source.Points;
     if (source.Closed)
     {
@@ -356,7 +369,9 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
       if (crossing.Curve >= 0)
       {
         const TrimCurve& curve = out.Whole.Data.TrimCurves[crossing.Curve];
-        ends[curve.Edge].push_back({ ShareOf(curve, crossing.Parameter), point.Point });
+        const double share = ShareOf(curve, crossing.Parameter);
+        ends[curve.Edge].push_back({ share, point.Point });
+        meets[curve.Edge] |= share > SameShare && share < 1.0 - SameShare;
       }
     }
     out.Lines.push_back(std::move(line));
@@ -370,7 +385,8 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
       if (!out.Uses[e].empty() && !IsDegenerate(out.Whole.Data.Edges[e]))
       {
         out.Lines[first + e] = MakeEdgeLine(out, e, options);
-        InsertEnds(out, std::move(ends[e]), out.Lines[first + e]);
+        InsertEnds(out, ends[e], out.Lines[first + e]);
+        out.Lines[first + e].MeetsSilhouette = meets[e] != 0;
       }
     }
   });
@@ -435,6 +451,19 @@ ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosi
     out.UV = Vec2(surface.Domain(0).Clamp(out.UV[0]), surface.Domain(1).Clamp(out.UV[1]));
   }
   out.Point = Evaluate(surface, out.UV[0], out.UV[1]);
+  const auto k = std::size_t(std::max(at, 0.0));
+  if (line.IsIntersection() && at > double(k) && k + 1 < line.Points.size())
+  {
+    const Face& other = lines.Whole.Data.Faces[line.OtherFace];
+    IntersectionPoint point{ out.Point, { out.UV, ParametersAt(line, at, line.OtherFace) } };
+    const Vec3 chord = line.Points[k + 1].Point - line.Points[k].Point;
+    if (FindCommonPoint(surface, other.Geometry, PointAt(line, at), chord.normalized(), point) &&
+      (point.Point - out.Point).norm() <= chord.norm())
+    {
+      out.UV = point.UV[0];
+      out.Point = point.Point;
+    }
+  }
   return out;
 }
 

@@ -11,6 +11,9 @@
 namespace nurbs
 {
 
+/// A point on a line: segment + share of that segment.
+using LinePosition = double;
+
 /// A polyline on a face or an edge, and its image.
 struct ViewLine
 {
@@ -26,16 +29,17 @@ struct ViewLine
   std::vector<ContourPoint> Points;
   /// Edges: shares of every use's trim curve, 0 at its Domain().Min, that belong to the points.
   std::vector<double> Shares;
+  /// Edges: where silhouettes end on it, increasing; the face beside it turns away there.
+  std::vector<LinePosition> Turns;
   std::vector<Vec2> Image;
+  /// Edges: a silhouette runs along it, or ends on it but at its ends.
+  bool MeetsSilhouette = false;
   /// All of its faces face away, and the outside of a closed shell is all that can be seen.
   bool IsBehind = false;
 
   bool IsEdge() const { return !this->Shares.empty(); }
   bool IsIntersection() const { return this->OtherFace >= 0; }
 };
-
-/// A point on a line: Segment + share of that segment.
-using LinePosition = double;
 
 /// What the lines are made of.
 struct ViewLines
@@ -65,7 +69,7 @@ Vec2 ImageAt(const ViewLine& line, LinePosition at);
 /// (u, v) on the line's own face; on the face given, which may be the other one of an intersection.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at);
 Vec2 ParametersAt(const ViewLine& line, LinePosition at, std::int64_t face);
-/// The same, moved from the chord to the edge's curve; other lines: to the own face's surface.
+/// The same, moved from the chord to the edge's or intersection curve; silhouettes: to the surface.
 ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at);
 /// Share of the trim curves; of edges only.
 double ShareAt(const ViewLine& line, LinePosition at);

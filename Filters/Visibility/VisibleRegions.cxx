@@ -2,6 +2,7 @@
 #include "VisibleRegions.h"
 
 #include "RegionArea.h"
+#include "VisibleParts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ constexpr double FinestShare = 1.0 / 536870912.0;
 constexpr double RoundingShare = 4e-16;
 // Shares of the whole that progress counts for the steps.
 constexpr double LinesDone = 0.2;
+constexpr double PartsDone = 0.6;
 constexpr double MapDone = 0.8;
 constexpr double FacesDone = 0.95;
 
@@ -69,6 +71,7 @@ private:
   void CheckPrecision() const;
   bool Report(double done) const { return !this->Options.Progress || this->Options.Progress(done); }
   bool MakeLines();
+  std::vector<LinePart> PartsInView(double pixel);
   bool MakeMap();
   bool FillFaces();
   std::vector<Piece> PiecesOf(std::int64_t line) const;
@@ -123,12 +126,25 @@ bool RegionMaker::MakeLines()
   return !this->Out.Lines.Aborted;
 }
 
+std::vector<LinePart> RegionMaker::PartsInView(double pixel)
+{
+  const FaceClusters clusters = FindClusters(this->Out.Lines, this->Image.GetViewer());
+  this->Out.Clusters = clusters.Count;
+  return FindVisibleParts(this->Out.Lines, clusters, this->Image, this->Caster, pixel,
+    this->Options.Parallel,
+    [&](double done) { return this->Report(LinesDone + (PartsDone - LinesDone) * done); });
+}
+
 bool RegionMaker::MakeMap()
 {
+  const double pixel = PixelShare * this->Options.Precision;
   const auto make = [&]() {
-    this->Map = MakeFrontMap(this->Out.Lines, LinesInView(this->Out.Lines), this->Image,
-      this->Caster, PixelShare * this->Options.Precision, this->Options.Parallel,
-      [&](double done) { return this->Report(LinesDone + (MapDone - LinesDone) * done); });
+    const double start = this->Options.Clustering ? PartsDone : LinesDone;
+    const std::vector<LinePart> parts =
+      this->Options.Clustering ? this->PartsInView(pixel) : LinesInView(this->Out.Lines);
+    this->Map =
+      MakeFrontMap(this->Out.Lines, parts, this->Image, this->Caster, pixel, this->Options.Parallel,
+        [&](double done) { return this->Report(start + (MapDone - start) * done); });
     return !this->Map.Cells.empty();
   };
   if (!make())

@@ -62,6 +62,7 @@ struct VisibleRegions
   /// Faces of which now one and now the other is in front within one cell of the image: they pierce
   /// or touch each other there, and the border between their regions is not exact. -1: nothing.
   std::vector<std::array<std::int64_t, 2>> Piercing;
+  std::int64_t Clusters = 0; ///< Of faces; 0 without Clustering.
   std::int64_t Cells = 0;    ///< Of the planar map.
   std::int64_t Segments = 0; ///< Edges of the planar map.
   bool Aborted = false;

@@ -2,6 +2,7 @@
 #include "RegionTruth.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <random>
 
@@ -31,6 +32,18 @@ double DistanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b)
   return (a + part * chord - p).norm();
 }
 
+using Cell2 = std::array<std::int64_t, 2>;
+
+Cell2 CellOf(const Vec2& image, double size)
+{
+  return { std::llround(image[0] / size), std::llround(image[1] / size) };
+}
+
+std::int64_t Key(const Cell2& cell)
+{
+  return cell[0] * (std::int64_t(1) << 32) + cell[1];
+}
+
 /// The box of the model in the image.
 nurbs::Box2 ImageBox(const ImageView& view, const nurbs::Box3& box)
 {
@@ -48,6 +61,7 @@ void Merge(const RegionCheck& part, RegionCheck& all, std::size_t list)
   all.Hits += part.Hits;
   all.Agree += part.Agree;
   all.Within += part.Within;
+  all.Narrow += part.Narrow;
   all.Near += part.Near;
   all.Wrong += part.Wrong;
   all.MissedFaces += part.MissedFaces;
@@ -121,6 +135,40 @@ RegionTruth::RegionTruth(const nurbs::RayCaster& caster, const nurbs::Model& reg
     this->RegionsOf.at(sources[f]).push_back(static_cast<std::int64_t>(f));
     this->AddBorder(regions.Faces[f], this->Borders[sources[f]]);
   }
+  this->SortSegments();
+}
+
+void RegionTruth::SortSegments()
+{
+  this->Cell = std::max(4.0 * this->Precision, this->Caster.Bounds().diagonal().norm() / 1000.0);
+  for (const std::vector<Segment>& border : this->Borders)
+  {
+    for (const Segment& segment : border)
+    {
+      const double reach = this->Precision * segment.Scale;
+      const Vec2 low = segment.From.cwiseMin(segment.To), high = segment.From.cwiseMax(segment.To);
+      const Cell2 first = CellOf(Vec2(low.array() - reach), this->Cell);
+      const Cell2 last = CellOf(Vec2(high.array() + reach), this->Cell);
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+      {
+        for (std::int64_t i = first[0]; i <= last[0]; ++i)
+        {
+          this->Cells[Key({ i, j })].push_back(&segment);
+        }
+      }
+    }
+  }
+}
+
+bool RegionTruth::IsBesideAnyBorder(const Vec3& point) const
+{
+  const Vec2 image = this->View.Project(point);
+  const auto found = this->Cells.find(Key(CellOf(image, this->Cell)));
+  return found != this->Cells.end() &&
+    std::any_of(found->second.begin(), found->second.end(), [&](const Segment* segment) {
+      return DistanceToSegment(image, segment->From, segment->To) <=
+        this->Precision * segment->Scale;
+    });
 }
 
 void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const
@@ -195,6 +243,11 @@ void RegionTruth::Judge(
   if (distance <= this->Precision)
   {
     ++check.Within;
+    return;
+  }
+  if (this->IsBesideAnyBorder(hit.Point))
+  {
+    ++check.Narrow;
     return;
   }
   ++(distance <= 10.0 * this->Precision ? check.Near : check.Wrong);

@@ -4,12 +4,14 @@
 ///
 /// A ray's first hit with the exact model is visible, its others are hidden; each hit is inside or
 /// outside of its face's visible regions as their trims tell. Where the two disagree, the distance to
-/// the nearest border of that face's regions in the image tells whether precision excuses it.
+/// the nearest border of that face's regions in the image tells whether precision excuses it. What is
+/// narrower than the precision may have no border of its own, but then lies beside another face's.
 #pragma once
 
 #include "RayCaster.h"
 
 #include <cmath>
+#include <unordered_map>
 
 namespace truth
 {
@@ -53,7 +55,8 @@ struct RegionCheck
   std::int64_t Rays = 0, Hits = 0;
   std::int64_t Agree = 0;       ///< Hits.
   std::int64_t Within = 0;      ///< Hits that disagree within the precision of a border.
-  std::int64_t Near = 0;        ///< Those within ten times the precision.
+  std::int64_t Narrow = 0;      ///< Those within the precision of a border of another face only.
+  std::int64_t Near = 0;        ///< Those within ten times the precision of a border of their face.
   std::int64_t Wrong = 0;       ///< All others.
   std::int64_t MissedFaces = 0; ///< Wrong hits on faces that have no region at all.
   double Worst = 0.0; ///< The largest finite distance of a disagreement, over the precision.
@@ -85,6 +88,8 @@ private:
   void AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const;
   void Judge(const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const;
   double DistanceToBorder(std::int64_t face, const nurbs::Vec3& point) const;
+  bool IsBesideAnyBorder(const nurbs::Vec3& point) const;
+  void SortSegments();
 
   const nurbs::RayCaster& Caster;
   const nurbs::Model& Regions;
@@ -95,6 +100,9 @@ private:
   nurbs::ParallelFor Parallel;
   std::vector<std::vector<std::int64_t>> RegionsOf; ///< One a face of the source model.
   std::vector<std::vector<Segment>> Borders;        ///< One a face of the source model.
+  /// All segments by the cells of a grid over the image that they may be within the precision of.
+  double Cell = 1.0;
+  std::unordered_map<std::int64_t, std::vector<const Segment*>> Cells;
 };
 
 } // namespace truth

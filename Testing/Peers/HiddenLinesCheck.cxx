@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Judges line drawings of a CAD file by rays against our exact surfaces (LineTruth.h): a .vtp of
-// polylines with cell data Visibility, whoever made it. Prints JSON: lengths in the image over the
-// diagonal, a tolerance each. See --help.
+// polylines with cell data Visibility, whoever made it, or the lines that vtkNURBSVisibleRegions
+// makes. Prints JSON: lengths in the image over the diagonal, a tolerance each. See --help.
 #include "LineTruth.h"
 #include "Measuring.h"
 #include "ModelExtent.h"
 #include "vtkNURBSCADReader.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSVisibleRegions.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <iostream>
@@ -54,14 +59,46 @@ void TakeLines(vtkPolyData* data, std::vector<Line>& lines)
   }
 }
 
+void TakeAllLines(vtkDataObject* data, std::vector<Line>& lines)
+{
+  if (auto* leaf = vtkPolyData::SafeDownCast(data))
+  {
+    TakeLines(leaf, lines);
+  }
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkCompositeDataIterator> at;
+    at.TakeReference(composite->NewIterator());
+    for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+    {
+      TakeAllLines(at->GetCurrentDataObject(), lines);
+    }
+  }
+}
+
 struct Options
 {
   std::string File, Lines;
   std::vector<double> View{ 1.0, 1.0, 1.0 };
   std::vector<double> Tolerances{ 1e-4, 1e-3 };
+  double Precision = 1e-4;
   double Step = 1e-3;
   int List = 0;
 };
+
+/// Our own lines; the seconds count the filter alone, on one thread.
+void MakeOwn(
+  vtkDataObject* model, const Options& options, std::vector<Line>& lines, nlohmann::json& result)
+{
+  vtkNew<vtkNURBSVisibleRegions> filter;
+  filter->SetInputDataObject(model);
+  filter->SetDirection(options.View.data());
+  filter->SetPrecision(options.Precision);
+  const measuring::Stopwatch watch;
+  filter->Update();
+  result["seconds"] = watch.Read().Processor;
+  TakeAllLines(filter->GetOutputDataObject(1), lines);
+}
 
 nlohmann::json Judge(const std::vector<Line>& lines, const nurbs::RayCaster& caster,
   const Options& options, double tolerance, double diagonal)
@@ -103,9 +140,10 @@ int main(int argc, char** argv)
   Options options;
   CLI::App app{ "Judges a line drawing of a CAD file by rays against the exact surfaces." };
   app.add_option("file", options.File)->required()->check(CLI::ExistingFile);
-  app.add_option("lines", options.Lines, ".vtp")->required();
+  app.add_option("lines", options.Lines, ".vtp; without it, ours are made and judged");
   app.add_option("--view", options.View, "x,y,z: to the viewer")->delimiter(',')->expected(3);
   app.add_option("--tolerance", options.Tolerances, "how far lines may be off, of the diagonal");
+  app.add_option("--precision", options.Precision, "of our lines, of the diagonal");
   app.add_option("--step", options.Step, "between points that are judged, of the diagonal");
   app.add_option("--list", options.List, "points that are wrong to list, a tolerance");
   CLI11_PARSE(app, argc, argv);
@@ -125,11 +163,20 @@ int main(int argc, char** argv)
     }
     result["faces"] = pool.Model.Faces.size();
     std::vector<Line> lines;
-    vtkNew<vtkXMLPolyDataReader> input;
-    input->SetFileName(options.Lines.c_str());
-    input->Update();
-    TakeLines(input->GetOutput(), lines);
+    if (options.Lines.empty())
+    {
+      vtkSMPTools::Initialize(1);
+      MakeOwn(reader->GetOutputDataObject(0), options, lines, result);
+    }
+    else
+    {
+      vtkNew<vtkXMLPolyDataReader> input;
+      input->SetFileName(options.Lines.c_str());
+      input->Update();
+      TakeLines(input->GetOutput(), lines);
+    }
     result["lines"] = lines.size();
+    vtkSMPTools::Initialize();
     const vtkNURBSParallelScope parallel;
     const nurbs::RayCaster caster(pool.Model, vtkNURBSParallelFor);
     const double diagonal =

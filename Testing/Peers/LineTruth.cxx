@@ -21,7 +21,7 @@ enum class Front
   Unsure
 };
 
-Front Classify(double farGap, double nearGap, double limit)
+Front Classify(double farGap, double nearGap, double middleGap, double limit)
 {
   if (nearGap <= limit)
   {
@@ -32,9 +32,14 @@ Front Classify(double farGap, double nearGap, double limit)
     return Front::Unsure;
   }
   // The side of a silhouette comes nearer with the square root of the distance (a half), a plane with
-  // the distance itself (a quarter). Lines beside the contour make it 0.56 at most.
+  // the distance itself (a quarter). Lines beside the contour make it 0.56 at most, and the gap of the
+  // point itself half of the near one.
   const double ratio = nearGap / farGap;
-  return ratio < 0.57 ? Front::Connected : (ratio > 0.8 ? Front::Blocked : Front::Unsure);
+  if (ratio < 0.57 && middleGap <= std::max(limit, 0.5 * nearGap))
+  {
+    return Front::Connected;
+  }
+  return ratio > 0.8 ? Front::Blocked : Front::Unsure;
 }
 
 } // namespace
@@ -43,7 +48,6 @@ LineTruth::LineTruth(const nurbs::RayCaster& caster, const Vec3& view, double to
   : Caster(caster)
   , View(view.normalized())
   , Tolerance(tolerance)
-  , Limit(10.0 * tolerance)
 {
   const nurbs::Box3& box = caster.Bounds();
   this->Far = -std::numeric_limits<double>::infinity();
@@ -55,7 +59,7 @@ LineTruth::LineTruth(const nurbs::RayCaster& caster, const Vec3& view, double to
   this->Far += 0.1 * box.diagonal().norm();
 }
 
-LineTruth::Foremost LineTruth::Look(const Vec3& place, double depth) const
+LineTruth::Foremost LineTruth::Look(const Vec3& place, double depth, double limit) const
 {
   nurbs::Ray ray;
   ray.Origin = place + (this->Far - place.dot(this->View)) * this->View;
@@ -66,18 +70,18 @@ LineTruth::Foremost LineTruth::Look(const Vec3& place, double depth) const
     return { -std::numeric_limits<double>::infinity(), true };
   }
   const double gap = this->Far - hit.T - depth;
-  if (std::abs(gap) > this->Limit)
+  if (std::abs(gap) > limit)
   {
     return { gap, true };
   }
-  ray.Min = this->Far - depth - this->Limit;
-  ray.Max = this->Far - depth + this->Limit;
+  ray.Min = this->Far - depth - limit;
+  ray.Max = this->Far - depth + limit;
   std::vector<nurbs::RayHit> hits;
   this->Caster.All(ray, hits);
   return { gap, hits.size() < 2 };
 }
 
-Truth LineTruth::At(const Vec3& point, const Vec3& tangent) const
+Truth LineTruth::At(const Vec3& point, const Vec3& tangent, double tolerance) const
 {
   const Vec3 across = this->View.cross(tangent);
   if (!(across.norm() > 1e-6 * tangent.norm()))
@@ -85,14 +89,15 @@ Truth LineTruth::At(const Vec3& point, const Vec3& tangent) const
     return Truth::Undecided; // Seen end on.
   }
   const Vec3 side = across.normalized();
-  const double depth = point.dot(this->View);
+  const double depth = point.dot(this->View), limit = 10.0 * tolerance;
+  const Foremost middle = this->Look(point, depth, limit);
   int blocked = 0, connected = 0;
   bool alone = true;
   for (const double sign : { -1.0, 1.0 })
   {
-    const Foremost far = this->Look(point + sign * 16.0 * this->Tolerance * side, depth);
-    const Foremost near = this->Look(point + sign * 4.0 * this->Tolerance * side, depth);
-    const Front front = Classify(far.Gap, near.Gap, this->Limit);
+    const Foremost far = this->Look(point + sign * 16.0 * tolerance * side, depth, limit);
+    const Foremost near = this->Look(point + sign * 4.0 * tolerance * side, depth, limit);
+    const Front front = Classify(far.Gap, near.Gap, middle.Gap, limit);
     alone = alone && near.IsAlone;
     if (front == Front::Unsure)
     {
@@ -103,8 +108,7 @@ Truth LineTruth::At(const Vec3& point, const Vec3& tangent) const
   }
   if (blocked == 0)
   {
-    const Foremost middle = this->Look(point, depth);
-    if (connected == 0 && middle.Gap > this->Limit)
+    if (connected == 0 && middle.Gap > limit)
     {
       return Truth::Undecided; // Under a corner of what hides it, past which the rays ran.
     }
@@ -129,7 +133,15 @@ void LineTruth::Judge(
     for (int i = 0; i < parts; ++i)
     {
       const Vec3 point = line[k] + (i + 0.5) / parts * chord;
-      const Truth truth = this->At(point, chord);
+      Truth truth = this->At(point, chord);
+      for (const double factor : { 0.25, 4.0 })
+      {
+        if (!isVisible && truth == Truth::Visible)
+        {
+          truth = this->At(point, chord, factor * this->Tolerance);
+          truth = truth == Truth::Visible ? truth : Truth::Undecided;
+        }
+      }
       if (truth == Truth::Undecided || (truth == Truth::Foremost && !isVisible))
       {
         lengths.Undecided += length / parts;

@@ -46,9 +46,13 @@ public:
   LineTruth(const nurbs::RayCaster& caster, const nurbs::Vec3& view, double tolerance);
 
   /// A point with the direction of its line (of any length over 0).
-  Truth At(const nurbs::Vec3& point, const nurbs::Vec3& tangent) const;
+  Truth At(const nurbs::Vec3& point, const nurbs::Vec3& tangent) const
+  {
+    return this->At(point, tangent, this->Tolerance);
+  }
 
-  /// Adds a polyline, judged at every `step` of its image.
+  /// Adds a polyline, judged at every `step` of its image. A point that is said to be hidden is wrong
+  /// if it is visible by a quarter of the tolerance and by four times it, too.
   void Judge(
     const std::vector<nurbs::Vec3>& line, bool isVisible, double step, LineLengths& lengths) const;
 
@@ -57,15 +61,15 @@ private:
   struct Foremost
   {
     double Gap;   ///< How far it is in front of the depth asked for; -infinity: there is none.
-    bool IsAlone; ///< No other surface is within Limit of that depth.
+    bool IsAlone; ///< No other surface is within the limit of that depth.
   };
-  Foremost Look(const nurbs::Vec3& place, double depth) const;
+  Foremost Look(const nurbs::Vec3& place, double depth, double limit) const;
+  Truth At(const nurbs::Vec3& point, const nurbs::Vec3& tangent, double tolerance) const;
 
   const nurbs::RayCaster& Caster;
   nurbs::Vec3 View;
   double Tolerance;
-  double Limit; ///< What is less in front of a point hides nothing.
-  double Far;   ///< Depth, along View, in front of the whole model.
+  double Far; ///< Depth, along View, in front of the whole model.
 };
 
 } // namespace verify

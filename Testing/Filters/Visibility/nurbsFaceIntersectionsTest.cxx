@@ -498,6 +498,53 @@ TEST(FaceIntersections, RandomPatches)
   EXPECT_GT(curves, 20);
 }
 
+TEST(FaceIntersections, SameWhateverTheOrder)
+{
+  Scene scene;
+  scene.Add([](ModelBuilder& builder) { nurbs::AddTeapot(builder); }, At(0, 0, 0));
+  scene.Add(Sphere(1.5), At(1, 0.3, 1));
+  scene.Run(1e-3);
+  nurbs::FaceIntersectionOptions options;
+  options.Precision = 1e-3;
+  options.Parallel = [](std::int64_t first, std::int64_t last,
+                       const std::function<void(std::int64_t, std::int64_t)>& body) {
+    for (std::int64_t k = last - 1; k >= first; --k)
+    {
+      body(k, k + 1);
+    }
+  };
+  const FaceIntersections other = nurbs::FindIntersections(
+    scene.Whole.Data, nurbs::TrimIndex(scene.Made.Model), scene.Made.FaceErrors, options);
+  ASSERT_EQ(other.Curves.size(), scene.Result.Curves.size());
+  EXPECT_GT(other.Curves.size(), 10u);
+  for (std::size_t k = 0; k < other.Curves.size(); ++k)
+  {
+    const FaceIntersection& a = other.Curves[k];
+    const FaceIntersection& b = scene.Result.Curves[k];
+    EXPECT_TRUE(std::equal(a.Face, a.Face + 2, b.Face));
+    ASSERT_EQ(a.Points.size(), b.Points.size());
+    for (std::size_t p = 0; p < a.Points.size(); ++p)
+    {
+      EXPECT_EQ(a.Points[p].Point, b.Points[p].Point);
+    }
+  }
+}
+
+TEST(FaceIntersections, SmallLoops)
+{
+  // A sphere that comes through a plane by a little, in the middle of patches of both; and one that does
+  // not reach it.
+  for (const double depth : { 3e-3, 3e-4, -1e-6 })
+  {
+    Scene scene;
+    scene.Add(Sphere(1.0), Turned(1, 2, 3, 0.7));
+    scene.Add(FlatPlate(4.0), At(-1.7, -2.2, 1.0 - depth));
+    scene.Run(1e-5);
+    const double radius = depth > 0.0 ? std::sqrt(2.0 * depth - depth * depth) : 0.0;
+    EXPECT_NEAR(scene.Length(), 2.0 * Pi * radius, 1e-3) << depth;
+  }
+}
+
 TEST(FaceIntersections, WrongPrecision)
 {
   Scene scene;
