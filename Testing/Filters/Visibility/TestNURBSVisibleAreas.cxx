@@ -6,7 +6,10 @@
 #include "vtkNURBSVisibleRegions.h"
 
 #include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <numeric>
@@ -99,6 +102,48 @@ TEST(VisibleAreas, InterlockedTori)
     ASSERT_NEAR(coarse / one.Area, 1.0, 3e-5);
     EXPECT_NEAR(VisibleArea(builder, one.View, false) / one.Area, 1.0, Digits)
       << one.View.transpose();
+  }
+}
+
+TEST(VisibleAreas, PiercingSpheres)
+{
+  // Seen from the side, half of what is outside of the other one: 2 pi (1 + d / 2) of both together.
+  const Vec3 middle(0.5, -0.3, 0.6);
+  for (const Vec3& view : { Vec3(0.6, 0.0, -0.5), Vec3(0.3, 0.5, 0.0) })
+  {
+    nurbs::ModelBuilder builder;
+    solids::AddSphere(builder, 1.0, solids::At(Vec3::Zero()));
+    solids::AddSphere(builder, 1.0, solids::At(middle));
+    const double exact = 2.0 * Pi * (1.0 + 0.5 * middle.norm());
+    EXPECT_NEAR(VisibleArea(builder, view, false) / exact, 1.0, Digits) << view.transpose();
+  }
+}
+
+TEST(VisibleAreas, IntersectionsAreLines)
+{
+  nurbs::ModelBuilder builder;
+  solids::AddSphere(builder, 1.0, solids::At(Vec3::Zero()));
+  solids::AddSphere(builder, 1.0, solids::At(Vec3(0.0, 1.0, 0.0)));
+  vtkNew<vtkUnstructuredGrid> model;
+  vtkNURBSModel::Store(builder, model);
+  vtkNew<vtkNURBSVisibleRegions> filter;
+  filter->SetInputDataObject(model);
+  filter->SetDirection(1.0, 0.2, 0.3);
+  EXPECT_TRUE(filter->GetIntersections());
+  for (const bool drawn : { true, false })
+  {
+    filter->SetIntersections(drawn);
+    filter->Update();
+    vtkDataArray* kinds = filter->GetLines()->GetCellData()->GetArray("Kind");
+    vtkDataArray* visible = filter->GetLines()->GetCellData()->GetArray("Visibility");
+    int count[2] = { 0, 0 };
+    for (vtkIdType k = 0; k < kinds->GetNumberOfTuples(); ++k)
+    {
+      count[int(visible->GetTuple1(k))] += kinds->GetTuple1(k) == 4.0;
+    }
+    EXPECT_EQ(count[0] > 0, drawn);
+    EXPECT_EQ(count[1] > 0, drawn);
+    EXPECT_EQ(filter->GetNumberOfPiercingPairs(), 0);
   }
 }
 
