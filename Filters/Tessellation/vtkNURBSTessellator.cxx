@@ -29,7 +29,7 @@ vtkCxxSetObjectMacro(vtkNURBSTessellator, Camera, vtkCamera);
 namespace
 {
 
-constexpr int MaxNamedFaces = 8; // in the warning
+constexpr int MaxNamedFaces = 8;      // in the warning
 constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
 constexpr std::int64_t QuickPoints = 512;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace nurbs
@@ -16,6 +17,7 @@ constexpr double SeriesTolerance = 1e-11;
 constexpr int Orders[] = { 3, 6, 12, 24 }; // Numbers of coefficients that are tried.
 constexpr double LineTolerance = 1e-10;    // Of integrals along curves, as a share of the area.
 constexpr int MaxHalvings = 12;
+constexpr double ShortStep = 0.02; // Of a polyline, as a share of the domain: three points do.
 constexpr double PI = 3.141592653589793238462643383280;
 
 struct Rule
@@ -83,20 +85,21 @@ void Legendre(double x, int n, double* p)
 struct Series
 {
   int Order = 0;
-  std::vector<double> C; // Order x Order, of u fastest.
+  int Count[2] = { 0, 0 }; // Of coefficients that matter, u and v; 1: constant.
+  std::vector<double> C;   // Order x Order, of u fastest.
 
   // Sums over v, and integrates over u from the span's start to x in [-1, 1].
   double Integral(double x, double y) const
   {
     double u[26];
     double v[26];
-    Legendre(x, this->Order, u);
-    Legendre(y, this->Order, v);
+    Legendre(x, this->Count[0], u);
+    Legendre(y, this->Count[1], v);
     double sum = 0.0;
-    for (int i = 0; i < this->Order; ++i)
+    for (int i = 0; i < this->Count[0]; ++i)
     {
       double c = 0.0;
-      for (int j = 0; j < this->Order; ++j)
+      for (int j = 0; j < this->Count[1]; ++j)
       {
         c += this->C[i + j * this->Order] * v[j];
       }
@@ -104,6 +107,29 @@ struct Series
       sum += c * (i == 0 ? x + 1.0 : (u[i + 1] - u[i - 1]) / (2 * i + 1));
     }
     return sum;
+  }
+
+  // Finds how many coefficients matter; false if there may be more than there are.
+  bool Settle()
+  {
+    double largest = 0.0;
+    for (const double c : this->C)
+    {
+      largest = std::max(largest, std::abs(c));
+    }
+    this->Count[0] = this->Count[1] = 1;
+    for (int j = 0; j < this->Order; ++j)
+    {
+      for (int i = 0; i < this->Order; ++i)
+      {
+        if (std::abs(this->C[i + j * this->Order]) > SeriesTolerance * largest)
+        {
+          this->Count[0] = std::max(this->Count[0], i + 1);
+          this->Count[1] = std::max(this->Count[1], j + 1);
+        }
+      }
+    }
+    return std::max(this->Count[0], this->Count[1]) <= this->Order - 2;
   }
 };
 
@@ -160,30 +186,13 @@ private:
   const Series& At(int i, int j)
   {
     Series& series = this->All[{ i, j }];
-    for (const int order : Orders)
+    bool settled = series.Order > 0;
+    for (std::size_t k = 0; k < std::size(Orders) && !settled; ++k)
     {
-      if (series.Order == 0 || (order > series.Order && !IsConverged(series)))
-      {
-        this->Expand(i, j, order, series);
-      }
+      this->Expand(i, j, Orders[k], series);
+      settled = series.Settle();
     }
     return series;
-  }
-  static bool IsConverged(const Series& series)
-  {
-    double largest = 0.0;
-    double last = 0.0;
-    const int n = series.Order;
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        const double c = std::abs(series.C[i + j * n]);
-        largest = std::max(largest, c);
-        last = i >= n - 2 || j >= n - 2 ? std::max(last, c) : last;
-      }
-    }
-    return last <= SeriesTolerance * largest;
   }
   void Expand(int i, int j, int n, Series& series) const;
 
@@ -228,25 +237,29 @@ void SpeedIntegral::Expand(int i, int j, int n, Series& series) const
   }
 }
 
-// The integral of P dv along a path t -> (u, v), v_t, by halving until it settles.
+// The integral of P dv along a path t -> (u, v), v_t, by n points.
+template <typename Path>
+double SumAlong(SpeedIntegral& speed, const Path& path, double from, double to, int n)
+{
+  const Rule& rule = Gauss(n);
+  double out = 0.0;
+  for (int k = 0; k < n; ++k)
+  {
+    Vec2 uv;
+    double slope = 0.0;
+    path(0.5 * (from + to) + 0.5 * (to - from) * rule.X[k], uv, slope);
+    out += rule.W[k] * slope * speed(uv);
+  }
+  return 0.5 * (to - from) * out;
+}
+
+// The same, by halving until it settles.
 template <typename Path>
 double AlongPath(
   SpeedIntegral& speed, const Path& path, double a, double b, double tolerance, int depth)
 {
-  const auto sum = [&](double from, double to, int n) {
-    const Rule& rule = Gauss(n);
-    double out = 0.0;
-    for (int k = 0; k < n; ++k)
-    {
-      Vec2 uv;
-      double slope = 0.0;
-      path(0.5 * (from + to) + 0.5 * (to - from) * rule.X[k], uv, slope);
-      out += rule.W[k] * slope * speed(uv);
-    }
-    return 0.5 * (to - from) * out;
-  };
-  const double coarse = sum(a, b, 5);
-  const double fine = sum(a, b, 8);
+  const double coarse = SumAlong(speed, path, a, b, 5);
+  const double fine = SumAlong(speed, path, a, b, 8);
   if (depth == 0 || std::abs(fine - coarse) <= tolerance)
   {
     return fine;
@@ -326,7 +339,11 @@ double RegionArea(const Model& model, std::int64_t index, const std::vector<Regi
           uv = a + t * step;
           slope = step[1];
         };
-        area += step[1] == 0.0 ? 0.0 : AlongPath(speed, path, 0.0, 1.0, tolerance, MaxHalvings);
+        const bool isShort =
+          std::abs(step[0]) < ShortStep * u.Length() && std::abs(step[1]) < ShortStep * v.Length();
+        area += step[1] == 0.0 ? 0.0
+          : isShort            ? SumAlong(speed, path, 0.0, 1.0, 3)
+                               : AlongPath(speed, path, 0.0, 1.0, tolerance, MaxHalvings);
       }
     }
   }

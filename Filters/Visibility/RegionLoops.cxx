@@ -17,6 +17,10 @@ constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
 constexpr double SameParameters = 1e-6;
 // Ends of pieces that are on different sides of a seam, as a share of the domain.
 constexpr double FarParameters = 0.25;
+// How far a shadow may be from a seam to end at it, in precisions.
+constexpr double SeamReach = 4.0;
+// Ends that are moved to each other; farther apart, they may be the same point of a pole.
+constexpr double NearParameters = 0.02;
 
 // A half-edge 2 e + side runs along edge e and has that side's cell on its left.
 using HalfEdge = std::int32_t;
@@ -269,6 +273,12 @@ private:
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
   void DropExcursions(RegionLoop& loop) const;
   void Close(RegionLoop& loop) const;
+  /// On different sides of a seam.
+  bool IsFar(const Vec2& a, const Vec2& b) const
+  {
+    return std::abs(a[0] - b[0]) > FarParameters * this->Surface.Domain(0).Length() ||
+      std::abs(a[1] - b[1]) > FarParameters * this->Surface.Domain(1).Length();
+  }
   Vec3 Point(const Vec2& uv) const { return Evaluate(this->Surface, uv[0], uv[1]); }
   bool IsFlipped(HalfEdge half) const
   {
@@ -487,6 +497,14 @@ void RegionLifter::AddShadow(
     }
     ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
     lift(seed, before.UV, sheet, next);
+    if (this->IsFar(before.UV, next.UV))
+    {
+      // Beyond a seam; its border is as near to the image point, within a few pixels.
+      ShadowPoint other{ next.Image, before.UV };
+      this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
+      const double miss = (this->Image.Project(this->Point(other.UV)) - other.Image).norm();
+      next = miss <= SeamReach * this->Precision ? other : next;
+    }
     this->RefineShadow(before, next, sheet, MaxShadowDepth, piece.Polyline);
     piece.Polyline.push_back(next.UV);
     before = next;
@@ -534,10 +552,6 @@ RegionPiece RegionLifter::Bridge(const Vec2& from, const Vec2& to) const
 void RegionLifter::DropExcursions(RegionLoop& loop) const
 {
   const Model& model = this->Lines.Whole.Data;
-  const auto isFar = [&](const Vec2& a, const Vec2& b) {
-    return std::abs(a[0] - b[0]) > FarParameters * this->Surface.Domain(0).Length() ||
-      std::abs(a[1] - b[1]) > FarParameters * this->Surface.Domain(1).Length();
-  };
   for (std::size_t k = 0; k < loop.size() && loop.size() > 2;)
   {
     const std::size_t before = (k + loop.size() - 1) % loop.size();
@@ -546,8 +560,8 @@ void RegionLifter::DropExcursions(RegionLoop& loop) const
     const Vec2 end = EndOfPiece(model, loop[k], true);
     const Vec2 from = EndOfPiece(model, loop[before], true);
     const Vec2 to = EndOfPiece(model, loop[after], false);
-    if (loop[k].Curve < 0 && isFar(from, start) && isFar(end, to) && !isFar(from, to) &&
-      !isFar(start, end))
+    if (loop[k].Curve < 0 && this->IsFar(from, start) && this->IsFar(end, to) &&
+      !this->IsFar(from, to) && !this->IsFar(start, end))
     {
       loop.erase(loop.begin() + std::ptrdiff_t(k));
       k = 0;
@@ -571,8 +585,8 @@ void RegionLifter::Close(RegionLoop& loop) const
     const Vec2 end = EndOfPiece(this->Lines.Whole.Data, piece, true);
     const Vec2 start = EndOfPiece(this->Lines.Whole.Data, next, false);
     const bool isNear = (this->Point(end) - this->Point(start)).norm() <= 8.0 * this->Precision &&
-      std::abs(end[0] - start[0]) < FarParameters * this->Surface.Domain(0).Length() &&
-      std::abs(end[1] - start[1]) < FarParameters * this->Surface.Domain(1).Length();
+      std::abs(end[0] - start[0]) < NearParameters * this->Surface.Domain(0).Length() &&
+      std::abs(end[1] - start[1]) < NearParameters * this->Surface.Domain(1).Length();
     // Gaps that the model's own loops may have.
     bool joined =
       std::abs(end[0] - start[0]) <= SameParameters * this->Surface.Domain(0).Length() &&

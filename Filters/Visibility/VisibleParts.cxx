@@ -85,6 +85,7 @@ public:
 private:
   bool IsHidden(const ViewLine& line, LinePosition at, const Vec2& image) const;
   bool IsHidden(const ViewLine& line, LinePosition from, LinePosition to) const;
+  bool IsHiddenAside(const ViewLine& line, LinePosition at) const;
   void AddCrossings(
     const ViewLine& line, std::size_t segment, std::vector<LinePosition>& out) const;
   void Add(std::int64_t line, LinePosition from, LinePosition to, std::vector<LinePart>& out) const;
@@ -135,6 +136,17 @@ bool PartFinder::IsHidden(const ViewLine& line, LinePosition from, LinePosition 
     }
   }
   return true;
+}
+
+// The same on both sides of a point: a wall that is seen edge-on may stand on the line, and a line of
+// sight along it may meet what it ends at.
+bool PartFinder::IsHiddenAside(const ViewLine& line, LinePosition at) const
+{
+  const auto k = std::min(std::size_t(at), line.Image.size() - 2);
+  const Vec2 along = (line.Image[k + 1] - line.Image[k]).normalized();
+  const Vec2 aside = SideReach * this->Map.Pixel * Vec2(-along[1], along[0]);
+  const Vec2 image = ImageAt(line, at);
+  return this->IsHidden(line, at, image + aside) && this->IsHidden(line, at, image - aside);
 }
 
 // Adds a part of an inner line, longer by the overlap, or makes the last one longer.
@@ -239,7 +251,9 @@ void PartFinder::FindOfInner(std::int64_t index, std::vector<LinePart>& out) con
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
   {
-    if (cuts[k] < cuts[k + 1] && !this->IsHidden(line, cuts[k], cuts[k + 1]))
+    if (cuts[k] < cuts[k + 1] &&
+      !(this->IsHidden(line, cuts[k], cuts[k + 1]) &&
+        this->IsHiddenAside(line, 0.5 * (cuts[k] + cuts[k + 1]))))
     {
       this->Add(index, cuts[k], cuts[k + 1], out);
     }

@@ -26,7 +26,7 @@ struct VisibleRegionOptions
   bool HiddenRegions = false;               ///< Regions are what is not visible.
   bool BothSides = true;                    ///< Faces are visible from behind, too.
   /// Lines within clusters of faces that face the viewer are cut by clusters' borders only.
-  bool Clustering = true;
+  bool Clustering = false;
   std::int64_t MaximumCells = 20000; ///< As SilhouetteOptions.
   std::vector<int> Parts;            ///< As SilhouetteOptions.
   ParallelFor Parallel = SerialFor;

@@ -22,7 +22,7 @@ vtkStandardNewMacro(vtkNURBSWaveletLOD);
 namespace
 {
 
-constexpr int MaxNamedFaces = 8; // in the warning
+constexpr int MaxNamedFaces = 8;      // in the warning
 constexpr std::size_t QuickFaces = 8; // Models that take no time worth a report of progress.
 
 double Now()

@@ -116,25 +116,59 @@ private:
 
 } // namespace
 
-double AreaByLines(const nurbs::RayCaster& caster, std::int64_t face, const ImageView& view,
-  int lines, int scan, const nurbs::ParallelFor& parallel)
+namespace
 {
+
+/// Integrates a function of v, halving intervals until two rules agree (Simpson's, once and twice).
+template <typename F>
+double Adapt(const F& f, double a, double b, const double (&values)[3], double tolerance, int depth)
+{
+  const double middle = 0.5 * (a + b);
+  const double left = f(0.5 * (a + middle)), right = f(0.5 * (middle + b));
+  const double once = (b - a) / 6.0 * (values[0] + 4.0 * values[1] + values[2]);
+  const double twice =
+    (b - a) / 12.0 * (values[0] + 4.0 * left + 2.0 * values[1] + 4.0 * right + values[2]);
+  if (depth == 0 || std::abs(twice - once) <= 15.0 * tolerance)
+  {
+    return twice + (twice - once) / 15.0;
+  }
+  const double low[3] = { values[0], left, values[1] }, high[3] = { values[1], right, values[2] };
+  return Adapt(f, a, middle, low, 0.5 * tolerance, depth - 1) +
+    Adapt(f, middle, b, high, 0.5 * tolerance, depth - 1);
+}
+
+} // namespace
+
+double AreaByLines(const nurbs::RayCaster& caster, std::int64_t face, const ImageView& view,
+  double tolerance, int scan, const nurbs::ParallelFor& parallel)
+{
+  constexpr int Pieces = 8; // Of a knot span, to start with.
+  constexpr int Depth = 24;
   const nurbs::SurfaceView& surface = caster.GetModel().Faces[face].Geometry;
   if (surface.Size() == 0)
   {
     return 0.0;
   }
   const std::vector<double> us = SpanEnds(surface, 0), vs = SpanEnds(surface, 1);
-  std::vector<double> sums((vs.size() - 1) * lines);
+  std::vector<double> sums((vs.size() - 1) * Pieces);
+  const auto visible = [&](double v) {
+    const Line line(caster, face, view, v);
+    double sum = 0.0;
+    for (std::size_t span = 0; span + 1 < us.size(); ++span)
+    {
+      sum += line.VisiblePart(us[span], us[span + 1], scan);
+    }
+    return sum;
+  };
   parallel(0, static_cast<std::int64_t>(sums.size()), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      const double low = vs[i / lines], step = (vs[i / lines + 1] - low) / lines;
-      const Line line(caster, face, view, low + (i % lines + 0.5) * step);
-      for (std::size_t span = 0; span + 1 < us.size(); ++span)
-      {
-        sums[i] += step * line.VisiblePart(us[span], us[span + 1], scan);
-      }
+      const double low = vs[i / Pieces], step = (vs[i / Pieces + 1] - low) / Pieces;
+      const double a = low + (i % Pieces) * step, b = a + step;
+      // Not on the ends themselves, where the face's trims end.
+      const double inset = 1e-9 * step;
+      const double values[3] = { visible(a + inset), visible(0.5 * (a + b)), visible(b - inset) };
+      sums[i] = Adapt(visible, a, b, values, tolerance / static_cast<double>(sums.size()), Depth);
     }
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file AreaByLines.h
-/// @brief The visible area of closed solids by rays, to as many digits as one has patience for.
+/// @brief The visible area of closed solids by rays, to six digits and more.
 #pragma once
 
 #include "RegionTruth.h"
@@ -12,10 +12,11 @@ namespace truth
 /// trims, and nothing in front of it.
 ///
 /// Lines of constant v are scanned for changes of visibility, which rays then bisect to 1e-12 of the
-/// domain; between changes the area's element is integrated by Gauss' rule, and over v by the
-/// midpoint rule: `lines` lines a knot span. The error falls with lines^-1.5 at worst.
+/// domain; between changes the area's element is integrated by Gauss' rule, and over v by Simpson's,
+/// with lines added where it has not converged.
+/// @param tolerance that is to be reached over v, an area; no bound.
 /// @param scan points a knot span and line; what is narrower may be missed.
 double AreaByLines(const nurbs::RayCaster& caster, std::int64_t face, const ImageView& view,
-  int lines, int scan, const nurbs::ParallelFor& parallel);
+  double tolerance, int scan, const nurbs::ParallelFor& parallel);
 
 } // namespace truth

@@ -174,6 +174,10 @@ bool RegionTruth::IsBesideAnyBorder(const Vec3& point) const
 void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const
 {
   constexpr int Parts = 8; // Of a knot span: borders are lifted to the surface.
+  if (face.Geometry.Size() == 0)
+  {
+    return; // The face has an error.
+  }
   Vec3 before = Vec3::Zero();
   const auto add = [&](const Vec2& uv, bool first) {
     const Vec3 point = nurbs::Evaluate(face.Geometry, uv[0], uv[1]);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkNURBSVisibleRegions against rays: VisibilityTruth FILE | --shape NAME [--view x,y,z]...
-// One line a view: hits that agree, that disagree within the precision of a border of their face's
-// regions (in the image, as seen there) or of any regions ("narrow": what is narrower than the precision
-// may be left out), within ten times that ("near"), and wrong ones. Exit status
-// 3 if there is a near or wrong one. With --area-lines N the visible area of closed solids by rays
-// (AreaByLines.h, N and 2 N lines a knot span) beside the sum of VisibleArea. See --help.
+// One line a view: hits that agree; that disagree within the precision of a border of their face's
+// regions (in the image, as seen there); of a border of any face's ("narrow": what is narrower than
+// the precision may be left out); "near", within ten times the precision; and "wrong", all others;
+// "missed" are those on faces without a region, "worst" is the largest distance in precisions. Exit
+// status 3 if there is a near or wrong one, or an output face with an error. With --area T the visible
+// area of closed solids by rays (AreaByLines.h, to T of it) beside the sum of VisibleArea. See --help.
 #include "AreaByLines.h"
 #include "Measuring.h"
 #include "ModelExtent.h"
@@ -15,6 +16,7 @@
 #include "vtkNURBSVisibleRegions.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdTypeArray.h>
@@ -26,7 +28,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <map>
+#include <numeric>
 
 namespace
 {
@@ -54,7 +58,9 @@ struct Options
   bool Hidden = false;
   bool NoClustering = false;
   int List = 0;
-  int AreaLines = 0;
+  double Area = 0.0;
+  int Scan = 100;
+  bool Json = false;
   int Threads = 0;
 };
 
@@ -140,6 +146,8 @@ public:
   bool Run(const std::string& name, bool isEye)
   {
     const Vec3 place = ParseVector(name);
+    nlohmann::json result{ { isEye ? "eye" : "view", name },
+      { "faces", this->Source.Model.Faces.size() } };
     vtkNew<vtkNURBSVisibleRegions> filter;
     filter->SetInputDataObject(this->Data);
     isEye ? filter->SetProjectionToPerspective() : filter->SetProjectionToParallel();
@@ -151,85 +159,108 @@ public:
                                          : vtkNURBSVisibleRegions::VISIBLE_REGION);
     const measuring::Stopwatch watch;
     filter->Update();
-    const double seconds = watch.Read().Elapsed;
+    result["seconds"] = watch.Read().Elapsed;
+    result["piercing"] = filter->GetNumberOfPiercingPairs();
     vtkNURBSModelPool regions;
     const std::string problem = regions.Collect(filter->GetOutputDataObject(0));
     if (!problem.empty())
     {
       throw std::runtime_error("the regions: " + problem);
     }
-    std::size_t failed = 0;
+    const truth::ImageView view = isEye ? truth::ImageView::FromEye(this->Caster->Bounds(), place)
+                                        : truth::ImageView::Parallel(this->Caster->Bounds(), place);
+    const bool right = this->CompareRays(regions, view, result);
+    if (this->Given.Area > 0.0)
+    {
+      this->CompareArea(regions, view, result);
+    }
+    this->Given.Json ? void(std::cout << result.dump() << std::endl) : this->Print(result);
+    return right;
+  }
+
+private:
+  bool CompareRays(
+    const vtkNURBSModelPool& regions, const truth::ImageView& view, nlohmann::json& result) const
+  {
     for (const std::string& error : regions.FaceErrors)
     {
-      failed += error.empty() ? 0 : 1;
+      if (!error.empty())
+      {
+        result["bad_regions"].push_back(error);
+      }
     }
     std::vector<std::int64_t> sources;
     for (const double number : Gather(regions, SourceFace))
     {
       sources.push_back(static_cast<std::int64_t>(number));
     }
-    const truth::ImageView view = isEye ? truth::ImageView::FromEye(this->Caster->Bounds(), place)
-                                        : truth::ImageView::Parallel(this->Caster->Bounds(), place);
-    const measuring::Stopwatch checking;
+    const measuring::Stopwatch watch;
     const truth::RegionTruth truth(*this->Caster, regions.Model, sources, view, this->Precision,
       this->Given.Hidden, vtkNURBSParallelFor);
     const truth::RegionCheck check = truth.Check(
       static_cast<std::int64_t>(this->Given.Rays), static_cast<std::size_t>(this->Given.List));
-    this->Print(
-      name, isEye, regions.Model.Faces.size(), failed, seconds, check, checking.Read().Elapsed);
-    if (this->Given.AreaLines > 0)
-    {
-      this->CompareArea(regions, view);
-    }
-    std::fflush(stdout);
-    return check.Near + check.Wrong + static_cast<std::int64_t>(failed) == 0;
-  }
-
-private:
-  void Print(const std::string& name, bool isEye, std::size_t regions, std::size_t failed,
-    double seconds, const truth::RegionCheck& check, double checking) const
-  {
-    const std::string model = this->Given.Shape.empty()
-      ? std::filesystem::path(this->Given.File).filename().string()
-      : this->Given.Shape;
-    std::printf(
-      "%-24s %s %-14s %6zu faces %6zu with regions (%zu bad)  %8.3f s | rays %lld hits "
-      "%lld agree %lld within %lld narrow %lld NEAR %lld WRONG %lld (on faces without region %lld) "
-      "worst %.3g precisions | %.1f s\n",
-      model.c_str(), isEye ? "eye" : "view", name.c_str(), this->Source.Model.Faces.size(), regions,
-      failed, seconds, static_cast<long long>(check.Rays), static_cast<long long>(check.Hits),
-      static_cast<long long>(check.Agree), static_cast<long long>(check.Within),
-      static_cast<long long>(check.Narrow), static_cast<long long>(check.Near),
-      static_cast<long long>(check.Wrong), static_cast<long long>(check.MissedFaces), check.Worst,
-      checking);
+    result.update({ { "regions", sources.size() }, { "rays", check.Rays }, { "hits", check.Hits },
+      { "agree", check.Agree }, { "within", check.Within }, { "narrow", check.Narrow },
+      { "near", check.Near }, { "wrong", check.Wrong }, { "missed", check.MissedFaces },
+      { "worst", check.Worst }, { "checking", watch.Read().Elapsed } });
     for (const truth::Disagreement& one : check.List)
     {
-      std::printf("  face %lld (FaceId %lld) uv %.9g %.9g point %.9g %.9g %.9g is %s, %.3g "
-                  "precisions from its border\n",
+      char text[200];
+      std::snprintf(text, sizeof text,
+        "face %lld (FaceId %lld) uv %.9g %.9g point %.9g %.9g %.9g is %s, %.3g precisions from its "
+        "border",
         static_cast<long long>(one.Face),
         static_cast<long long>(this->Source.Model.Faces[one.Face].FaceId), one.UV[0], one.UV[1],
         one.Point[0], one.Point[1], one.Point[2], one.IsFront ? "visible" : "hidden",
         one.Distance / this->Precision);
+      result["list"].push_back(text);
     }
+    return check.Near + check.Wrong == 0 && !result.contains("bad_regions");
   }
 
-  void CompareArea(const vtkNURBSModelPool& regions, const truth::ImageView& view) const
+  void CompareArea(
+    const vtkNURBSModelPool& regions, const truth::ImageView& view, nlohmann::json& result) const
   {
-    double ours = 0.0, coarse = 0.0, fine = 0.0;
-    for (const double area : Gather(regions, "VisibleArea"))
-    {
-      ours += area;
-    }
-    const int n = this->Given.AreaLines;
+    const std::vector<double> areas = Gather(regions, "VisibleArea");
+    const double ours = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const double tolerance = this->Given.Area * ours / double(this->Source.Model.Faces.size());
+    double coarse = 0.0, fine = 0.0;
     for (std::size_t f = 0; f < this->Source.Model.Faces.size(); ++f)
     {
       const auto face = static_cast<std::int64_t>(f);
-      coarse += truth::AreaByLines(*this->Caster, face, view, n, 48, vtkNURBSParallelFor);
-      fine += truth::AreaByLines(*this->Caster, face, view, 2 * n, 48, vtkNURBSParallelFor);
+      coarse += truth::AreaByLines(
+        *this->Caster, face, view, 10.0 * tolerance, this->Given.Scan / 2 + 1, vtkNURBSParallelFor);
+      fine += truth::AreaByLines(
+        *this->Caster, face, view, tolerance, this->Given.Scan, vtkNURBSParallelFor);
     }
-    std::printf("  visible area %.10g, by rays %.10g (half as many lines: %.2e off), difference "
-                "%.2e of it\n",
-      ours, fine, (coarse - fine) / fine, (ours - fine) / fine);
+    result.update({ { "area", ours }, { "area_by_rays", fine },
+      { "area_coarse", (coarse - fine) / fine }, { "area_off", (ours - fine) / fine } });
+  }
+
+  void Print(const nlohmann::json& result) const
+  {
+    const std::string model = this->Given.Shape.empty()
+      ? std::filesystem::path(this->Given.File).filename().string()
+      : this->Given.Shape;
+    std::printf("%-24s", model.c_str());
+    for (const char* key : { "eye", "view", "faces", "regions", "seconds", "piercing", "rays",
+           "hits", "agree", "within", "narrow", "near", "wrong", "missed", "worst", "checking",
+           "area", "area_by_rays", "area_coarse", "area_off" })
+    {
+      if (result.contains(key))
+      {
+        std::printf(" %s %s", key, result[key].dump().substr(0, 16).c_str());
+      }
+    }
+    std::printf("\n");
+    for (const char* key : { "bad_regions", "list" })
+    {
+      for (const std::string& line : result.value(key, std::vector<std::string>()))
+      {
+        std::printf("  %s\n", line.c_str());
+      }
+    }
+    std::fflush(stdout);
   }
 
   const Options& Given;
@@ -256,7 +287,10 @@ int main(int argc, char** argv)
   app.add_flag("--hidden", options.Hidden, "the hidden regions instead of the visible ones");
   app.add_flag("--no-clustering", options.NoClustering);
   app.add_option("--list", options.List, "disagreements to list");
-  app.add_option("--area-lines", options.AreaLines, "compare the area of a closed solid, too");
+  app.add_option("--area", options.Area, "compare the area of a closed solid, to this part of it");
+  app.add_option("--scan", options.Scan, "points a knot span that the area is scanned at")
+    ->capture_default_str();
+  app.add_flag("--json", options.Json, "print lines of JSON");
   app.add_option("--threads", options.Threads, "0: as many as there are");
   CLI11_PARSE(app, argc, argv);
   if (options.Threads > 0)

@@ -141,13 +141,13 @@ TEST(AreaByLines, SphereAndCap)
   const Scene scene(builder);
   const auto half = truth::ImageView::Parallel(scene.Caster.Bounds(), Vec3(1, -2, 0.5));
   EXPECT_NEAR(
-    truth::AreaByLines(scene.Caster, 0, half, 60, 12, nurbs::SerialFor) / (2.0 * Pi * 1.5 * 1.5),
-    1.0, 5e-4);
+    truth::AreaByLines(scene.Caster, 0, half, 1e-5, 12, nurbs::SerialFor) / (2.0 * Pi * 1.5 * 1.5),
+    1.0, 1e-4);
   const Vec3 away(1, 4, -1);
   const auto cap = truth::ImageView::FromEye(scene.Caster.Bounds(), Vec3(1, 2, 3) + away);
-  EXPECT_NEAR(truth::AreaByLines(scene.Caster, 0, cap, 60, 12, nurbs::SerialFor) /
+  EXPECT_NEAR(truth::AreaByLines(scene.Caster, 0, cap, 1e-5, 12, nurbs::SerialFor) /
       (2.0 * Pi * 1.5 * 1.5 * (1.0 - 1.5 / away.norm())),
-    1.0, 5e-4);
+    1.0, 1e-4);
 }
 
 TEST(AreaByLines, ToriThatHideEachOther)
@@ -162,16 +162,16 @@ TEST(AreaByLines, ToriThatHideEachOther)
     solids::AddTorus(builder, torus.Radius, torus.Tube, torus.Place);
   }
   const Scene scene(builder);
-  for (const Vec3& view : { Vec3(0.3, 0.5, 1.0), Vec3(1.0, 0.2, 0.1) })
+  for (const Vec3& view : { Vec3(0.3, 0.5, 1.0) })
   {
     const auto image = truth::ImageView::Parallel(scene.Caster.Bounds(), view);
     for (std::size_t k = 0; k < 2; ++k)
     {
       const double expected = reference::VisibleTorusArea(tori, k, view, 4000);
       EXPECT_NEAR(truth::AreaByLines(
-                    scene.Caster, static_cast<std::int64_t>(k), image, 40, 16, nurbs::SerialFor) /
+                    scene.Caster, static_cast<std::int64_t>(k), image, 1e-3, 64, nurbs::SerialFor) /
           expected,
-        1.0, 5e-4);
+        1.0, 1e-4);
       EXPECT_LT(expected, 0.49 * 4.0 * Pi * Pi * tori[k].Radius * tori[k].Tube);
     }
   }

@@ -4,8 +4,8 @@
 # to build/bench/*.md. BUILD names the build folder (default: build/release). A child process that
 # fails or takes too long is a line beside its script's table. Exits 1, and names the script, if one
 # fails or a child process crashes.
-#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, drawing, deformation, times and
-#                            our meshes at 1e-3 only
+#   run_all.sh [--quick] [FOLDER...]   --quick: pictures, drawing, deformation, visible
+#                            regions, times and our meshes at 1e-3 only
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 export BUILD="${BUILD:-$here/../../build/release}"
@@ -22,7 +22,7 @@ step() {
   local start=$SECONDS status=0 words="$*"
   printf '\n== %s\n' "$words"
   python3 "$here/$1" "${@:2}" "${folders[@]}" || status=$?
-  # A mesh that fails the verification (3) is a finding, shown in its table; OpenCASCADE's do.
+  # What fails a verification (3) is a finding, shown in its table; OpenCASCADE's meshes do.
   [ $status -eq 0 ] || [ $status -eq 3 ] || failed+=("$words (exit status $status)")
   times+=("$((SECONDS - start)) s: $words")
 }
@@ -39,8 +39,11 @@ if [ $quick = no ]; then
   step scale.py
   step paper_tables.py
 fi
+step visibility_truth.py --rays 1e5 --no-areas
 step ../Peers/verify_all.py --tolerances "$tolerances"
 if [ $quick = no ]; then
+  step visibility.py
+  step ../Peers/hidden_lines.py
   step ../Peers/verify_all.py --tolerances 1e-3 --error estimated
   step ../Peers/verify_all.py --tolerances "$tolerances" --occt
 fi
