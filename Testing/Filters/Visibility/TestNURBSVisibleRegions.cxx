@@ -186,7 +186,7 @@ TEST(NURBSVisibleRegions, FacesAreSeenFromBehindAsAsked)
   filter->BothSidesOff();
   filter->Update();
   EXPECT_NEAR(filter->GetVisibleArea(), 2.0 * PI, 2e-3);
-  // Nothing but its back: no region, but lines, and it hides what is behind it.
+  // Nothing but its back: no region, but lines.
   filter->SetInputData(Shape(vtkNURBSShapeSource::DISC));
   filter->SetDirection(0, 1, -1);
   filter->Update();
@@ -197,6 +197,22 @@ TEST(NURBSVisibleRegions, FacesAreSeenFromBehindAsAsked)
   filter->BothSidesOn();
   filter->Update();
   EXPECT_NEAR(filter->GetVisibleArea(), PI, 1e-6);
+}
+
+TEST(NURBSVisibleRegions, BacksHideWhatIsBehindThem)
+{
+  nurbs::ModelBuilder builder;
+  AddQuad(builder, { 0, 0, 1 }, { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 1 }); // Shows its back.
+  AddQuad(builder, { -1, -1, 0 }, { 2, -1, 0 }, { -1, 2, 0 }, { 2, 2, 0 });
+  vtkNew<vtkNURBSVisibleRegions> filter;
+  filter->SetInputData(Grid(builder));
+  for (const bool both : { true, false })
+  {
+    filter->SetBothSides(both);
+    filter->Update();
+    EXPECT_NEAR(VisibleAreaOf(filter, 0), both ? 1.0 : 0.0, 1e-9);
+    EXPECT_NEAR(VisibleAreaOf(filter, 1), 8.0, 5e-3);
+  }
 }
 
 TEST(NURBSVisibleRegions, LinesAreMadeAsAsked)
