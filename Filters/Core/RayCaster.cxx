@@ -175,13 +175,20 @@ void RayCaster::Walk(const Cast& cast, double& tMax, const Found& found) const
 bool RayCaster::Nearest(const Ray& ray, RayHit& hit) const
 {
   const Cast cast(ray, this->Bounds());
+  // Of surfaces that lie on each other it is always the first, or else rounding would tell.
+  const double same = SamePart * this->Bounds().diagonal().norm();
   double tMax = cast.Max;
+  double tNearest = Infinity;
   Place place = Place::Outside;
   PatchHit nearest;
   this->Walk(cast, tMax, [&](const PatchHit& found, double t, Place where) {
-    nearest = found;
-    place = where;
-    tMax = t;
+    if (place == Place::Outside || t < tNearest - same || found.Patch < nearest.Patch)
+    {
+      nearest = found;
+      place = where;
+      tNearest = t;
+      tMax = std::min(cast.Max, t + same);
+    }
   });
   if (place == Place::Beside)
   {

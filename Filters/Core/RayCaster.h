@@ -53,9 +53,9 @@ public:
   /// TrimIndex throws.
   explicit RayCaster(const Model& model, const ParallelFor& parallel = SerialFor);
 
-  /// The hit with the smallest t in the ray's range. Returns false if there is none, and leaves
-  /// `hit`. Throws Error if the direction is zero, or a number of the ray is NaN or an infinite
-  /// vector.
+  /// The hit with the smallest t in the ray's range; of hits within 1e-9 of the model's size of each
+  /// other, that on the first face. Returns false if there is none, and leaves `hit`. Throws Error if
+  /// the direction is zero, or a number of the ray is NaN or an infinite vector.
   bool Nearest(const Ray& ray, RayHit& hit) const;
 
   /// True if there is a hit in the ray's range; the quickest question.

@@ -100,9 +100,12 @@ void PairFinder::MakeFace(std::int64_t index)
 {
   const Face& face = this->Source.Faces[index];
   FaceParts& parts = this->Faces[index];
+  if (!this->FaceErrors[index].empty())
+  {
+    return; // Its surface may lack knots.
+  }
   parts.Domain = LoopsBox(this->Source, face);
-  if (!this->FaceErrors[index].empty() || parts.Domain.isEmpty() ||
-    !(parts.Domain.sizes().minCoeff() > 0.0))
+  if (parts.Domain.isEmpty() || !(parts.Domain.sizes().minCoeff() > 0.0))
   {
     return;
   }

@@ -38,6 +38,10 @@ std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const 
 std::vector<std::vector<RegionLoop>> ComplementRegions(
   const ViewLines& lines, const std::vector<std::vector<RegionLoop>>& regions);
 
+/// Drops loops that enclose no area in (u, v), such as a shadow's border there and back: a model's loops
+/// must enclose some.
+void DropFlatLoops(const Model& model, std::vector<std::vector<RegionLoop>>& regions);
+
 /// Cuts pieces of trim curves wherever a piece of another use of the same edge ends, so that faces
 /// share whole edges.
 void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions);

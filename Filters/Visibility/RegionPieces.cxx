@@ -14,6 +14,9 @@ namespace
 
 // Shares of a trim curve that are nearer to each other are the same.
 constexpr double SameShare = 1e-12;
+// What loops enclose, as a share of their length squared, that counts as nothing: a little more than
+// what the checks of a model (ModelChecks.cxx) complain of.
+constexpr double FlatShare = 1e-11;
 
 // The parts of [0, 1] that are left.
 std::vector<Interval> Gaps(std::vector<Interval> covered)
@@ -127,6 +130,35 @@ std::vector<RegionLoop> Complement(
   return Link(model, size, std::move(pieces));
 }
 
+// True if a loop encloses nothing in (u, v) relative to the domain.
+bool IsFlat(const Model& model, const SurfaceView& surface, const RegionLoop& loop)
+{
+  const Vec2 size(surface.Domain(0).Length(), surface.Domain(1).Length());
+  std::vector<Vec2> points;
+  for (const RegionPiece& piece : loop)
+  {
+    points.insert(points.end(), piece.Polyline.begin(), piece.Polyline.end());
+    const int samples =
+      piece.Curve < 0 ? 0 : 4 * std::max(1, model.TrimCurves[piece.Curve].Geometry.Count - 1);
+    RegionPiece part = piece;
+    for (int k = 0; k < samples; ++k)
+    {
+      part.To = piece.From + double(k) / samples * (piece.To - piece.From);
+      points.push_back(EndOfPiece(model, part, true));
+    }
+  }
+  double area = 0.0;
+  double length = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const Vec2 a = (points[k] - points[0]).cwiseQuotient(size);
+    const Vec2 b = (points[(k + 1) % points.size()] - points[0]).cwiseQuotient(size);
+    area += a[0] * b[1] - a[1] * b[0];
+    length += (b - a).norm();
+  }
+  return std::abs(area) <= FlatShare * std::max(FlatShare, length * length);
+}
+
 } // namespace
 
 std::vector<std::vector<RegionLoop>> ComplementRegions(
@@ -201,6 +233,18 @@ void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>
     }
     loop = std::move(out);
   });
+}
+
+void DropFlatLoops(const Model& model, std::vector<std::vector<RegionLoop>>& regions)
+{
+  for (std::size_t f = 0; f < regions.size(); ++f)
+  {
+    std::vector<RegionLoop>& loops = regions[f];
+    const auto isFlat = [&](const RegionLoop& loop) {
+      return IsFlat(model, model.Faces[f].Geometry, loop);
+    };
+    loops.erase(std::remove_if(loops.begin(), loops.end(), isFlat), loops.end());
+  }
 }
 
 } // namespace nurbs

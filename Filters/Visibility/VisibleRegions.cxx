@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace nurbs
 {
@@ -18,10 +19,15 @@ constexpr double ChordShare = 0.25;
 constexpr double PixelShare = 0.5;
 // Shorter pieces of a line, in pixels, go with their neighbours.
 constexpr double ShortestPiece = 2.0;
+// The finest precision, as a share of the image: half an image is 2^29 pixels at most.
+constexpr double FinestShare = 1.0 / 536870912.0;
+// Coordinates are rounded to this share of their size; the precision must be ten times that.
+constexpr double RoundingShare = 4e-16;
 // Shares of the whole that progress counts for the steps.
 constexpr double LinesDone = 0.2;
 constexpr double PartsDone = 0.6;
 constexpr double MapDone = 0.8;
+constexpr double FacesDone = 0.95;
 
 // A part of a line between two positions.
 struct Piece
@@ -34,6 +40,17 @@ struct Piece
 bool IsAlike(const Piece& a, const Piece& b)
 {
   return a.Visible == b.Visible && a.IsOutline == b.IsOutline;
+}
+
+// The larger side of the image of a box.
+double ImageSize(const ImagePlane& image, const Box3& box)
+{
+  Box2 out;
+  for (int k = 0; k < 8; ++k)
+  {
+    out.extend(image.Project(box.corner(Box3::CornerType(k))));
+  }
+  return out.diagonal().maxCoeff();
 }
 
 // All steps of one call.
@@ -57,15 +74,16 @@ private:
     const Box3& box = this->Caster.Bounds();
     return box.isEmpty() ? Box3(Vec3::Zero(), Vec3::Zero()) : box;
   }
+  void CheckPrecision() const;
   bool Report(double done) const { return !this->Options.Progress || this->Options.Progress(done); }
   bool MakeLines();
   std::vector<LinePart> PartsInView(double pixel);
   bool MakeMap();
-  void FillFaces();
+  bool FillFaces();
   bool IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const;
   std::vector<Piece> PiecesOf(std::int64_t line) const;
   void DrawLine(std::int64_t line, std::vector<DrawnLine>& out) const;
-  void DrawLines();
+  bool DrawLines();
 
   const Model& Source;
   const std::vector<std::string>& FaceErrors;
@@ -75,6 +93,30 @@ private:
   FrontMap Map;
   VisibleRegions Out;
 };
+
+// Lines of a finer precision would take very long before snapping them fails.
+void RegionMaker::CheckPrecision() const
+{
+  const Box3 box = this->Bounds();
+  const double size = ImageSize(this->Image, box);
+  const double least = FinestShare * size;
+  std::ostringstream problem;
+  if (!(this->Options.Precision >= least))
+  {
+    problem << "The precision is finer than 2e-9 of the image's size: it must be " << least
+            << " or more, but is " << this->Options.Precision;
+    throw Error(problem.str());
+  }
+  const double farthest =
+    std::max({ box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff(),
+      this->Options.View.Perspective ? this->Options.View.Place.cwiseAbs().maxCoeff() : 0.0 });
+  if (!(this->Options.Precision >= 10.0 * RoundingShare * farthest))
+  {
+    problem << "The eye or the model is too far from the origin: coordinates of " << farthest
+            << " are not told to the precision of " << this->Options.Precision;
+    throw Error(problem.str());
+  }
+}
 
 bool RegionMaker::MakeLines()
 {
@@ -162,12 +204,13 @@ bool IsWhole(const Model& model, std::int64_t index, const std::vector<RegionLoo
   return curves == 0 && !loops.empty();
 }
 
-void RegionMaker::FillFaces()
+bool RegionMaker::FillFaces()
 {
   const ViewLines& lines = this->Out.Lines;
   const Model& model = lines.Whole.Data;
   std::vector<std::vector<RegionLoop>> visible = TraceRegions(lines, this->Image, this->Caster,
     this->Map, this->Options.Precision, this->Options.BothSides, this->Options.Parallel);
+  DropFlatLoops(model, visible);
   this->Out.Faces.resize(visible.size());
   this->Options.Parallel(
     0, std::int64_t(visible.size()), [&](std::int64_t begin, std::int64_t end) {
@@ -184,11 +227,13 @@ void RegionMaker::FillFaces()
     });
   std::vector<std::vector<RegionLoop>> regions =
     this->Options.HiddenRegions ? ComplementRegions(lines, visible) : std::move(visible);
+  DropFlatLoops(model, regions);
   CutAtSharedEnds(lines, regions);
   for (std::size_t f = 0; f < regions.size(); ++f)
   {
     this->Out.Faces[f].Loops = std::move(regions[f]);
   }
+  return this->Report(FacesDone);
 }
 
 // True if a smooth edge is what a silhouette would be: its surfaces are seen on one side of it only. Faces
@@ -303,17 +348,20 @@ void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) cons
   }
 }
 
-void RegionMaker::DrawLines()
+bool RegionMaker::DrawLines()
 {
   for (std::size_t l = 0; l < this->Out.Lines.Lines.size(); ++l)
   {
     this->DrawLine(std::int64_t(l), this->Out.Drawn);
   }
+  return this->Report(1.0);
 }
 
 VisibleRegions RegionMaker::Run()
 {
-  if (!this->MakeLines() || !this->MakeMap())
+  this->CheckPrecision();
+  if (!this->MakeLines() || !this->MakeMap() || !this->Report(MapDone) || !this->FillFaces() ||
+    !this->DrawLines())
   {
     this->Out = VisibleRegions();
     this->Out.Aborted = true;
@@ -323,9 +371,6 @@ VisibleRegions RegionMaker::Run()
   this->Out.Piercing = this->Map.Piercing;
   this->Out.Cells = this->Map.Plane.CellCount;
   this->Out.Segments = std::int64_t(this->Map.Snapped.Edges.size());
-  this->FillFaces();
-  this->DrawLines();
-  this->Report(1.0);
   return std::move(this->Out);
 }
 

@@ -70,7 +70,8 @@ struct VisibleRegions
 
 /// Makes regions and lines. `faceErrors`: one a face, why it can't be used, or "". The result does not
 /// depend on `Parallel`. Throws Error if the precision or feature angle is not positive, the view not
-/// valid (see ImagePlane), or the precision below 2e-9 of the image.
+/// valid (see ImagePlane), or the precision below 2e-9 of the image of the model's box or 4e-15 of the
+/// largest coordinate, the eye's included.
 VisibleRegions MakeVisibleRegions(const Model& model, const std::vector<std::string>& faceErrors,
   const VisibleRegionOptions& options);
 

@@ -175,7 +175,7 @@ int vtkNURBSVisibleRegions::RequestData(
     return 0;
   }
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (work.Result.Aborted)
+  if (work.Result.Aborted || this->GetAbortExecute())
   {
     return 1;
   }

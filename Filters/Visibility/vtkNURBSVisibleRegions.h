@@ -32,13 +32,14 @@
  * | cell data | FaceId and all other attributes of the input's faces | of the line's face (of an edge: the first that uses it; of an intersection: the first of the two) |
  *
  * Precision is that of the image: borders of regions and ends of visible lines are within it, and what
- * is narrower may be left out. In perspective the image plane passes through the farthest point of the
- * model, parallel to its bounding box's middle; the eye must have all of the box before it.
+ * is narrower may be left out; it must be at least 2e-9 of the image's size. In perspective the image
+ * plane passes through the farthest point of the model's bounding box, across the line from the eye to
+ * the box's middle; the eye must have all of the box before it.
  *
  * Where different faces pierce each other, their intersection curves are found and border the regions
  * (FaceIntersections.h says which curves are). Faces that still pierce or touch each other within a cell
  * of the map are told in one warning and by NumberOfPiercingPairs: the border between their regions is
- * not exact there. Faces that can't be used
+ * not exact there. Of faces that lie on each other the first one is seen. Faces that can't be used
  * hide nothing and are named in one warning. A view that is not valid, or an input without NURBS
  * arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
  * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.

@@ -38,6 +38,9 @@ struct Case
   }
   void Check(double precision, int n) const
   {
+#ifdef NURBS_SANITIZE
+    n /= 2; // Sanitizers are slow, and look for other things.
+#endif
     const RegionCheck check = CheckRegions(this->Made.Model, this->Result, precision, n);
     EXPECT_GT(check.Fronts, n * n / 20);
     EXPECT_EQ(check.Wrong, 0) << "first at " << check.FirstWrong.transpose() << " face "
