@@ -666,7 +666,7 @@ Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
 {
   if (piece.Curve < 0)
   {
-    return last ? piece.Polyline.back() : piece.Polyline.front();
+    return piece.Polyline[last ? std::max(piece.Polyline.size(), std::size_t(1)) - 1 : 0];
   }
   const CurveView<2>& curve = model.TrimCurves[piece.Curve].Geometry;
   const Interval domain = curve.Domain();

@@ -91,6 +91,8 @@ private:
   RayCaster Caster;
   ImagePlane Image;
   FrontMap Map;
+  /// For so long, in the image, a smooth edge that runs into a silhouette may be one with it.
+  double Touching = 0.0;
   VisibleRegions Out;
 };
 
@@ -240,7 +242,8 @@ bool RegionMaker::FillFaces()
 // may end just where they turn away, and have no silhouette of their own.
 bool RegionMaker::IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const
 {
-  if (line.Kind != LineKind::Smooth || (source.Shows != 1 && source.Shows != 2))
+  if (line.Kind != LineKind::Smooth || (source.Shows != 1 && source.Shows != 2) ||
+    this->Out.Lines.Uses[line.Edge].front().Face == this->Out.Lines.Uses[line.Edge].back().Face)
   {
     return false;
   }
@@ -290,23 +293,26 @@ std::vector<Piece> RegionMaker::PiecesOf(std::int64_t index) const
   return out;
 }
 
+// In the image; more than `enough` is not told.
+double Length(const ViewLine& line, const Piece& piece, double enough)
+{
+  double sum = 0.0;
+  Vec2 before = ImageAt(line, piece.From);
+  for (auto k = std::size_t(piece.From) + 1; double(k) < piece.To && sum < enough; ++k)
+  {
+    sum += (line.Image[k] - before).norm();
+    before = line.Image[k];
+  }
+  return sum + (ImageAt(line, piece.To) - before).norm();
+}
+
 // Drops pieces that are too short to be told from nothing.
 void DropShortPieces(const ViewLine& line, double shortest, std::vector<Piece>& pieces)
 {
-  const auto length = [&](const Piece& piece) {
-    double sum = 0.0;
-    Vec2 before = ImageAt(line, piece.From);
-    for (auto k = std::size_t(piece.From) + 1; double(k) < piece.To && sum < shortest; ++k)
-    {
-      sum += (line.Image[k] - before).norm();
-      before = line.Image[k];
-    }
-    return sum + (ImageAt(line, piece.To) - before).norm();
-  };
   std::vector<Piece> kept;
   for (Piece piece : pieces)
   {
-    const bool isShort = pieces.size() > 1 && length(piece) < shortest;
+    const bool isShort = pieces.size() > 1 && Length(line, piece, shortest) < shortest;
     if (!kept.empty() && (isShort || IsAlike(kept.back(), piece)))
     {
       kept.back().To = piece.To;
@@ -326,6 +332,10 @@ void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) cons
   std::vector<Piece> pieces = line.IsBehind
     ? std::vector<Piece>{ { 0.0, double(line.Points.size() - 1), false, false } }
     : this->PiecesOf(index);
+  for (Piece& piece : pieces)
+  {
+    piece.IsOutline = piece.IsOutline && Length(line, piece, this->Touching) > this->Touching;
+  }
   DropShortPieces(line, ShortestPiece * this->Map.Pixel, pieces);
   for (const Piece& piece : pieces)
   {
@@ -350,6 +360,7 @@ void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) cons
 
 bool RegionMaker::DrawLines()
 {
+  this->Touching = std::sqrt(8.0 * this->Map.Pixel * this->Out.Lines.Box().diagonal().norm());
   for (std::size_t l = 0; l < this->Out.Lines.Lines.size(); ++l)
   {
     this->DrawLine(std::int64_t(l), this->Out.Drawn);

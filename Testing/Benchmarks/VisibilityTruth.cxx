@@ -56,7 +56,7 @@ struct Options
   double Precision = 1e-4;
   double Rays = 1e6;
   bool Hidden = false;
-  bool NoClustering = false;
+  bool Clustering = false;
   int List = 0;
   double Area = 0.0;
   int Scan = 100;
@@ -154,7 +154,7 @@ public:
     filter->SetDirection(place[0], place[1], place[2]);
     filter->SetEyePoint(place[0], place[1], place[2]);
     filter->SetPrecision(this->Given.Precision);
-    filter->SetClustering(!this->Given.NoClustering);
+    filter->SetClustering(this->Given.Clustering);
     filter->SetRegion(this->Given.Hidden ? vtkNURBSVisibleRegions::HIDDEN_REGION
                                          : vtkNURBSVisibleRegions::VISIBLE_REGION);
     const measuring::Stopwatch watch;
@@ -285,7 +285,7 @@ int main(int argc, char** argv)
   app.add_option("--precision", options.Precision, "of the diagonal")->capture_default_str();
   app.add_option("--rays", options.Rays)->capture_default_str();
   app.add_flag("--hidden", options.Hidden, "the hidden regions instead of the visible ones");
-  app.add_flag("--no-clustering", options.NoClustering);
+  app.add_flag("--clustering", options.Clustering, "as vtkNURBSVisibleRegions::Clustering");
   app.add_option("--list", options.List, "disagreements to list");
   app.add_option("--area", options.Area, "compare the area of a closed solid, to this part of it");
   app.add_option("--scan", options.Scan, "points a knot span that the area is scanned at")
