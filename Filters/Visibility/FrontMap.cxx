@@ -185,7 +185,6 @@ FrontHit LookAt(const RayCaster& caster, const ImagePlane& image, const Vec2& at
     out.Face = hit.Face;
     out.UV = Vec2(hit.U, hit.V);
     out.Point = hit.Point;
-    out.T = hit.T;
     out.FromBehind = hit.Normal.dot(ray.Direction) > 0.0;
   }
   return out;

@@ -23,7 +23,6 @@ struct FrontHit
   std::int64_t Face = -1; ///< -1: nothing.
   Vec2 UV = Vec2::Zero();
   Vec3 Point = Vec3::Zero();
-  double T = 0.0;
   bool FromBehind = false; ///< Its inside faces the viewer.
 };
 

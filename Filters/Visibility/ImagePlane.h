@@ -38,8 +38,6 @@ public:
   /// The line of sight of an image point, away from the viewer; t is a length.
   Ray Sight(const Vec2& image) const;
   SightPlanes Planes(const Vec2& image) const;
-  /// Right, up, and away from the viewer.
-  const Vec3& Axis(int k) const { return this->Axes[k]; }
 
   /// Moves (u, v) on the surface (not its trimmed part alone) to where an image point is seen, by
   /// Newton's method from the uv given, on its sheet: where S_u x S_v faces the viewer (`sheet` 1) or
@@ -50,7 +48,7 @@ public:
 
 private:
   Viewer View;
-  Vec3 Axes[3];
+  Vec3 Axes[3];       ///< Right, up, and away from the viewer.
   Vec3 Origin;        ///< The eye, or (parallel) a point before the model.
   double Focus = 1.0; ///< Depth of the image plane in perspective.
 };

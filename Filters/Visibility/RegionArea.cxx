@@ -169,8 +169,6 @@ public:
     return sum;
   }
 
-  const std::vector<double>& RowBreaks() const { return this->Breaks[1]; }
-
 private:
   int Span(int dir, double t) const
   {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace nurbs
@@ -13,6 +12,9 @@ namespace
 {
 
 constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
+// Chords longer than so many pixels are halved at least so often: a wavy surface may meet the middle.
+constexpr double SureLength = 64.0;
+constexpr int SureHalvings = 3;
 // Ends of curves at which nothing is between, as a share of the domain.
 constexpr double SameParameters = 1e-6;
 // Ends of pieces that are on different sides of a seam, as a share of the domain.
@@ -452,7 +454,9 @@ void RegionLifter::RefineShadow(
       return;
     }
   }
-  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision)
+  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision &&
+    (depth <= MaxShadowDepth - SureHalvings ||
+      (b.Image - a.Image).norm() <= SureLength * this->Map.Pixel))
   {
     return;
   }
@@ -666,7 +670,7 @@ Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
 {
   if (piece.Curve < 0)
   {
-    return piece.Polyline[last ? std::max(piece.Polyline.size(), std::size_t(1)) - 1 : 0];
+    return last ? piece.Polyline.back() : piece.Polyline.front();
   }
   const CurveView<2>& curve = model.TrimCurves[piece.Curve].Geometry;
   const Interval domain = curve.Domain();

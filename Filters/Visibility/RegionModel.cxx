@@ -174,7 +174,7 @@ std::vector<std::int64_t> BuildRegions(
 {
   RegionWriter writer(regions.Lines.Whole, builder);
   std::vector<std::int64_t> faces;
-  for (std::int64_t f = first; f < last; ++f)
+  for (std::int64_t f = first; f < last && f < std::int64_t(regions.Faces.size()); ++f)
   {
     if (!regions.Faces[f].Loops.empty())
     {

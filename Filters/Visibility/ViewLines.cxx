@@ -346,7 +346,6 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   for (SilhouetteLine& source : silhouettes.Lines)
   {
     ViewLine line;
-    line.Crease = source.Crease;
     line.Face = source.Face;
     line.Edge = source.Edge;
     if (line.Edge >= 0)

@@ -18,7 +18,6 @@ using LinePosition = double;
 struct ViewLine
 {
   LineKind Kind = LineKind::Silhouette;
-  bool Crease = false;
   /// A silhouette's face; an edge's first use; an intersection's first face. UV of the points are in its
   /// domain.
   std::int64_t Face = -1;

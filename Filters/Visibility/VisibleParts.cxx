@@ -230,9 +230,13 @@ void PartFinder::AddCrossings(
     const Vec2 p = this->Map.VertexImage(ends[0]) - a;
     const Vec2 q = this->Map.VertexImage(ends[1]) - a;
     const double slope = cross(along, q - p);
+    if (slope == 0.0)
+    {
+      return; // Along the line.
+    }
     // An edge that starts or ends near the line counts as crossed.
     const double reach = this->Map.Pixel / (q - p).norm();
-    const double onEdge = slope == 0.0 ? -1.0 : cross(p, along) / slope;
+    const double onEdge = cross(p, along) / slope;
     if (onEdge >= -reach && onEdge <= 1.0 + reach)
     {
       out.push_back(double(segment) + std::clamp(cross(p, q - p) / slope, 0.0, 1.0));
@@ -320,7 +324,10 @@ std::vector<LinePart> FindVisibleParts(const ViewLines& lines, const FaceCluster
         finder.FindOfContour(l, parts[l]);
       }
       ++done;
-      goOn = goOn && (!progress || progress(double(done) / double(count)));
+      if (progress && !progress(double(done) / double(count)))
+      {
+        goOn = false;
+      }
     }
   });
   std::vector<LinePart> out;

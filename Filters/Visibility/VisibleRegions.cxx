@@ -161,10 +161,14 @@ bool RegionMaker::MakeMap()
     return false;
   }
   // A shell that is inside out, or is looked into through a gap: nothing of it is behind.
-  const bool isInsideOut =
-    std::any_of(this->Map.Cells.begin(), this->Map.Cells.end(), [&](const FrontHit& front) {
-      return front.Face >= 0 && front.FromBehind && this->Out.Lines.IsShell[front.Face];
-    });
+  bool isInsideOut = false;
+  for (std::int32_t c = 0; c < this->Map.Plane.CellCount; ++c)
+  {
+    const FrontHit& front = this->Map.Cells[c];
+    isInsideOut = isInsideOut ||
+      (front.Face >= 0 && front.FromBehind && this->Out.Lines.IsShell[front.Face] &&
+        !this->Map.IsSliver(c));
+  }
   const bool hasBehind = std::any_of(this->Out.Lines.Lines.begin(), this->Out.Lines.Lines.end(),
     [](const ViewLine& line) { return line.IsBehind; });
   if (isInsideOut && hasBehind)
@@ -249,7 +253,7 @@ bool RegionMaker::IsOutline(const ViewLine& line, const LineSource& source, std:
   }
   const ArrayView<LineSource> sources = this->Map.SourcesOf(edge);
   return std::none_of(sources.begin(), sources.end(), [&](const LineSource& other) {
-    return this->Out.Lines.Lines[other.Line].Kind == LineKind::Silhouette &&
+    return this->Out.Lines.Lines[other.Line].Kind != LineKind::Smooth &&
       (other.Shows != 0 || other.IsBare);
   });
 }
@@ -326,17 +330,36 @@ void DropShortPieces(const ViewLine& line, double shortest, std::vector<Piece>& 
   pieces = std::move(kept);
 }
 
+// Makes one of pieces that follow each other and are alike.
+void MergeAlike(std::vector<Piece>& pieces)
+{
+  std::vector<Piece> merged;
+  for (const Piece& piece : pieces)
+  {
+    if (!merged.empty() && IsAlike(merged.back(), piece))
+    {
+      merged.back().To = piece.To;
+    }
+    else
+    {
+      merged.push_back(piece);
+    }
+  }
+  pieces = std::move(merged);
+}
+
 void RegionMaker::DrawLine(std::int64_t index, std::vector<DrawnLine>& out) const
 {
   const ViewLine& line = this->Out.Lines.Lines[index];
   std::vector<Piece> pieces = line.IsBehind
     ? std::vector<Piece>{ { 0.0, double(line.Points.size() - 1), false, false } }
     : this->PiecesOf(index);
+  DropShortPieces(line, ShortestPiece * this->Map.Pixel, pieces);
   for (Piece& piece : pieces)
   {
     piece.IsOutline = piece.IsOutline && Length(line, piece, this->Touching) > this->Touching;
   }
-  DropShortPieces(line, ShortestPiece * this->Map.Pixel, pieces);
+  MergeAlike(pieces);
   for (const Piece& piece : pieces)
   {
     DrawnLine drawn;

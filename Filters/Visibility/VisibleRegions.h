@@ -30,7 +30,7 @@ struct VisibleRegionOptions
   std::int64_t MaximumCells = 20000; ///< As SilhouetteOptions.
   std::vector<int> Parts;            ///< As SilhouetteOptions.
   ParallelFor Parallel = SerialFor;
-  /// Called with the share done; false: stop.
+  /// Called from any thread with the share done; false: stop.
   std::function<bool(double)> Progress;
 };
 

@@ -111,9 +111,10 @@ void vtkNURBSVisibleRegions::Summarize(const Work& work)
         failed << "\n  face " << faceName(std::int64_t(f)) << ": " << lines.Message;
       }
     }
+    const bool isSeen = face.IsWhole || face.VisibleArea > 0.0;
     this->NumberOfVisibleFaces += face.IsWhole;
-    this->NumberOfPartialFaces += !face.IsWhole && face.VisibleArea > 0.0;
-    this->NumberOfHiddenFaces += !(face.VisibleArea > 0.0);
+    this->NumberOfPartialFaces += isSeen && !face.IsWhole;
+    this->NumberOfHiddenFaces += !isSeen;
   }
   this->NumberOfCells = vtkIdType(work.Result.Cells);
   this->NumberOfPiercingPairs = vtkIdType(work.Result.Piercing.size());
@@ -146,16 +147,40 @@ void vtkNURBSVisibleRegions::ClearResults()
   this->VisibleArea = this->Seconds = 0.0;
 }
 
+void vtkNURBSVisibleRegions::FillOutputs(
+  const Work& work, vtkDataObject* input, vtkInformationVector* outputs)
+{
+  vtkNURBSRegionOutput::LineChoice choice;
+  choice.Kinds[0] = this->GetSilhouettes();
+  choice.Kinds[1] = this->GetBoundaryEdges();
+  choice.Kinds[2] = this->GetSharpEdges();
+  choice.Kinds[3] = this->GetSmoothEdges();
+  choice.Kinds[4] = this->Intersections;
+  choice.Hidden = this->HiddenLines;
+  choice.Project = this->ProjectLines;
+  const auto grids =
+    work.Pool.MakeLeaves<vtkUnstructuredGrid>(input, vtkDataObject::GetData(outputs, 0));
+  const auto lines = work.Pool.MakeLeaves<vtkPolyData>(input, vtkDataObject::GetData(outputs, 1));
+  for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
+  {
+    vtkNURBSRegionOutput::FillModel(work.Result, work.Pool.Leaves[k], grids[k]);
+    vtkNURBSRegionOutput::FillLines(work.Result, work.Pool.Leaves[k], choice, lines[k]);
+    this->NumberOfLines += lines[k]->GetNumberOfLines();
+  }
+  this->NumberOfVisibleLines = std::count_if(work.Result.Drawn.begin(), work.Result.Drawn.end(),
+    [&](const nurbs::DrawnLine& line) { return line.Visible && choice.Kinds[int(line.Kind)]; });
+}
+
 int vtkNURBSVisibleRegions::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* models = vtkDataObject::GetData(outputs, 0);
-  vtkDataObject* drawings = vtkDataObject::GetData(outputs, 1);
-  vtkNURBSModelPool::CopyTree(input, models);
-  vtkNURBSModelPool::CopyTree(input, drawings);
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
+  }
   const vtkNURBSParallelScope parallel;
   Work work;
   try
@@ -167,6 +192,13 @@ int vtkNURBSVisibleRegions::RequestData(
       throw nurbs::Error(problem);
     }
     this->Make(work);
+    if (!work.Result.Aborted && !this->GetAbortExecute())
+    {
+      this->Summarize(work);
+      this->FillOutputs(work, input, outputs);
+      this->Seconds = Now() - start;
+      this->UpdateProgress(1.0);
+    }
   }
   catch (const std::exception& problem)
   {
@@ -175,31 +207,6 @@ int vtkNURBSVisibleRegions::RequestData(
     return 0;
   }
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (work.Result.Aborted || this->GetAbortExecute())
-  {
-    return 1;
-  }
-  this->Summarize(work);
-  vtkNURBSRegionOutput::LineChoice choice;
-  choice.Kinds[0] = this->GetSilhouettes();
-  choice.Kinds[1] = this->GetBoundaryEdges();
-  choice.Kinds[2] = this->GetSharpEdges();
-  choice.Kinds[3] = this->GetSmoothEdges();
-  choice.Kinds[4] = this->Intersections;
-  choice.Hidden = this->HiddenLines;
-  choice.Project = this->ProjectLines;
-  const auto grids = work.Pool.MakeLeaves<vtkUnstructuredGrid>(input, models);
-  const auto lines = work.Pool.MakeLeaves<vtkPolyData>(input, drawings);
-  for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
-  {
-    vtkNURBSRegionOutput::FillModel(work.Result, work.Pool.Leaves[k], grids[k]);
-    vtkNURBSRegionOutput::FillLines(work.Result, work.Pool.Leaves[k], choice, lines[k]);
-    this->NumberOfLines += lines[k]->GetNumberOfLines();
-  }
-  this->NumberOfVisibleLines = std::count_if(work.Result.Drawn.begin(), work.Result.Drawn.end(),
-    [&](const nurbs::DrawnLine& line) { return line.Visible && choice.Kinds[int(line.Kind)]; });
-  this->Seconds = Now() - start;
-  this->UpdateProgress(1.0);
   return 1;
 }
 

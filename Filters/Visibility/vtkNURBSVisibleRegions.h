@@ -66,8 +66,8 @@ public:
 
   ///@{
   /**
-   * What points upwards in the image; a Camera's own view-up goes before. Parallel to the view: the y
-   * axis does. Default (0, 0, 1).
+   * What points upwards in the image; a Camera's own view-up goes before. Parallel to the view or zero:
+   * the z axis does, or the y axis if the view is along z. Default (0, 0, 1).
    */
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
@@ -132,8 +132,8 @@ public:
   /**
    * Whether faces that face the viewer and share edges are taken together where these do not fold over:
    * edges within such a cluster hide nothing, and a first map of the other lines tells what can be
-   * left out of the one that regions are made of. That has up to 14 times fewer cells, but the first
-   * map costs as much as it saves (Documentation/Papers/ruan-2006.md). Default off.
+   * left out of the one that regions are made of. That has up to 7 times fewer cells, but the first
+   * map costs more than it saves (Documentation/Papers/ruan-2006.md). Default off.
    */
   vtkSetMacro(Clustering, bool);
   vtkGetMacro(Clustering, bool);
@@ -183,6 +183,7 @@ private:
   struct Work;
   void Make(Work& work);
   void Summarize(const Work& work);
+  void FillOutputs(const Work& work, vtkDataObject* input, vtkInformationVector* outputs);
   void ClearResults();
 
   double ViewUp[3] = { 0.0, 0.0, 1.0 };

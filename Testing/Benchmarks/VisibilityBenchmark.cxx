@@ -33,7 +33,7 @@ struct Options
   int Patches = 1000;
   std::vector<std::string> Views{ "1,1,1", "0,0,1", "0.3,-0.9,0.2" };
   std::vector<double> Precisions{ 1e-4 };
-  std::vector<std::string> Clustering{ "on" };
+  std::vector<std::string> Clustering{ "off" };
   int Threads = 1;
   int Repeat = 1;
 };

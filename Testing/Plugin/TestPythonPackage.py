@@ -10,7 +10,12 @@ class PythonPackage(unittest.TestCase):
         self.assertTrue(vtknurbs.__all__, "the package has no class")
         for name in vtknurbs.__all__:
             with self.subTest(name):
-                built = getattr(vtknurbs, name)()
+                try:
+                    built = getattr(vtknurbs, name)()
+                except TypeError as problem:
+                    # What only has in common what other classes do.
+                    self.assertIn("abstract", str(problem))
+                    continue
                 self.assertEqual(built.GetClassName(), name)
                 self.assertTrue(str(built))
 
