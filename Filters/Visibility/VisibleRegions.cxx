@@ -246,8 +246,7 @@ bool RegionMaker::FillFaces()
 // may end just where they turn away, and have no silhouette of their own.
 bool RegionMaker::IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const
 {
-  if (line.Kind != LineKind::Smooth || (source.Shows != 1 && source.Shows != 2) ||
-    this->Out.Lines.Uses[line.Edge].front().Face == this->Out.Lines.Uses[line.Edge].back().Face)
+  if (line.Kind != LineKind::Smooth || (source.Shows != 1 && source.Shows != 2))
   {
     return false;
   }
