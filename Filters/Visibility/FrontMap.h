@@ -44,7 +44,7 @@ struct LineSource
   std::int32_t Segment = 0; ///< Index into FrontMap::Segments.
   bool Backward = false;    ///< The line runs from the edge's end to its start.
   /// Bits 0 and 1: the surface seen on the left and right of the edge (from start to end) ends here,
-  /// at this line of its own.
+  /// at this line of its own. Of a curve in which two faces pierce each other: it is seen.
   std::uint8_t Shows = 0;
   /// Nothing is in front of the line here, though its own surface is too narrow to have a cell.
   bool IsBare = false;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 vtkCxxSetObjectMacro(vtkNURBSViewAlgorithm, Camera, vtkCamera);
@@ -19,6 +20,7 @@ namespace
 {
 
 constexpr std::size_t QuickFaces = 8;
+constexpr std::int64_t QuickPoints = 512;
 
 } // namespace
 
@@ -93,7 +95,10 @@ std::vector<int> vtkNURBSViewAlgorithm::PartsOf(const vtkNURBSModelPool& pool)
 
 bool vtkNURBSViewAlgorithm::IsQuick(const vtkNURBSModelPool& pool)
 {
-  return pool.Model.Faces.size() <= QuickFaces;
+  const std::int64_t points =
+    std::accumulate(pool.Model.Faces.begin(), pool.Model.Faces.end(), std::int64_t(0),
+      [](std::int64_t sum, const nurbs::Face& face) { return sum + face.Geometry.Size(); });
+  return pool.Model.Faces.size() <= QuickFaces && points <= QuickPoints;
 }
 
 void vtkNURBSViewAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

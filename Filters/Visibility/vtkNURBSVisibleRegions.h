@@ -39,9 +39,9 @@
  * Where different faces pierce each other, their intersection curves are found and border the regions
  * (FaceIntersections.h says which curves are). Faces that still pierce or touch each other within a cell
  * of the map are told in one warning and by NumberOfPiercingPairs: the border between their regions is
- * not exact there. Of faces that lie on each other the first one is seen. Faces that can't be used
- * hide nothing and are named in one warning. A view that is not valid, or an input without NURBS
- * arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
+ * not exact there. Of faces that lie on each other, within a billionth of the model's size, the first one
+ * is seen. Faces that can't be used hide nothing, and are named in one warning with those whose
+ * silhouettes have gaps. A view that is not valid, or an input without NURBS arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
  * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.
  *
  * Source: X. Ruan, H. Zhang, J. Yong, "Visible region extraction from a sequence of rational Bezier
