@@ -132,7 +132,7 @@ public:
   /**
    * Whether faces that face the viewer and share edges are taken together where these do not fold over:
    * edges within such a cluster hide nothing, and a first map of the other lines tells what can be
-   * left out of the one that regions are made of. That has up to 7 times fewer cells, but the first
+   * left out of the one that regions are made of. That has up to 30 times fewer cells, but the first
    * map costs more than it saves (Documentation/Papers/ruan-2006.md). Default off.
    */
   vtkSetMacro(Clustering, bool);
