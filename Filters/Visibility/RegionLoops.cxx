@@ -666,18 +666,6 @@ RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
 
 } // namespace
 
-Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
-{
-  if (piece.Curve < 0)
-  {
-    return last ? piece.Polyline.back() : piece.Polyline.front();
-  }
-  const CurveView<2>& curve = model.TrimCurves[piece.Curve].Geometry;
-  const Interval domain = curve.Domain();
-  const double share = last ? piece.To : piece.From;
-  return Evaluate(curve, share == 1.0 ? domain.Max : domain.Min + share * domain.Length());
-}
-
 std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const ImagePlane& image,
   const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,
   const ParallelFor& parallel)
