@@ -340,6 +340,7 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   {
     return out;
   }
+  out.Unresolved = intersections.Unresolved;
   const auto edges = std::int64_t(out.Whole.Data.Edges.size());
   std::vector<std::vector<EdgeEnd>> ends(edges);
   std::vector<char> meets(edges, 0);

@@ -47,6 +47,8 @@ struct ViewLines
   std::vector<std::vector<EdgeUse>> Uses; ///< One an edge.
   std::vector<ViewLine> Lines;
   std::vector<FaceSilhouette> Faces;
+  /// Pairs of faces whose intersection curves may be missing; see FaceIntersections::Unresolved.
+  std::vector<std::array<std::int64_t, 2>> Unresolved;
   std::vector<char> IsShell; ///< One a face: it belongs to a closed, consistently oriented shell.
   bool Aborted = false;
 

@@ -293,7 +293,6 @@ FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer)
   for (std::size_t f = 0; f < out.Cluster.size(); ++f)
   {
     out.Cluster[f] = find(std::int64_t(f));
-    out.Count += out.Cluster[f] == std::int64_t(f);
   }
   return out;
 }

@@ -19,7 +19,6 @@ struct FaceClusters
 {
   std::vector<char> IsInner;         ///< One a line: it is an inner line of a cluster.
   std::vector<std::int64_t> Cluster; ///< One a face: the lowest face of its cluster.
-  std::int64_t Count = 0;            ///< Of clusters; a face alone is one, too.
 };
 
 FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer);

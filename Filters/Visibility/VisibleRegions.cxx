@@ -138,7 +138,6 @@ bool RegionMaker::MakeLines()
 std::vector<LinePart> RegionMaker::PartsInView(double pixel)
 {
   const FaceClusters clusters = FindClusters(this->Out.Lines, this->Image.GetViewer());
-  this->Out.Clusters = clusters.Count;
   return FindVisibleParts(this->Out.Lines, clusters, this->Image, this->Caster, pixel,
     this->Options.Parallel,
     [&](double done) { return this->Report(LinesDone + (PartsDone - LinesDone) * done); });
@@ -402,8 +401,15 @@ VisibleRegions RegionMaker::Run()
   }
   this->Out.Image = this->Image;
   this->Out.Piercing = this->Map.Piercing;
+  for (std::array<std::int64_t, 2> pair : this->Out.Lines.Unresolved)
+  {
+    std::sort(pair.begin(), pair.end());
+    this->Out.Piercing.push_back(pair);
+  }
+  std::sort(this->Out.Piercing.begin(), this->Out.Piercing.end());
+  this->Out.Piercing.erase(
+    std::unique(this->Out.Piercing.begin(), this->Out.Piercing.end()), this->Out.Piercing.end());
   this->Out.Cells = this->Map.Plane.CellCount;
-  this->Out.Segments = std::int64_t(this->Map.Snapped.Edges.size());
   return std::move(this->Out);
 }
 

@@ -60,11 +60,10 @@ struct VisibleRegions
   /// Silhouettes by face, then intersections by pair of faces, then edges by their index.
   std::vector<DrawnLine> Drawn;
   /// Faces of which now one and now the other is in front within one cell of the image: they pierce
-  /// or touch each other there, and the border between their regions is not exact. -1: nothing.
+  /// or touch each other there, and the border between their regions is not exact. -1: nothing. And
+  /// pairs whose intersection curves may be missing (FaceIntersections::Unresolved). Sorted.
   std::vector<std::array<std::int64_t, 2>> Piercing;
-  std::int64_t Clusters = 0; ///< Of faces; 0 without Clustering.
-  std::int64_t Cells = 0;    ///< Of the planar map.
-  std::int64_t Segments = 0; ///< Edges of the planar map.
+  std::int64_t Cells = 0; ///< Of the planar map.
   bool Aborted = false;
 };
 

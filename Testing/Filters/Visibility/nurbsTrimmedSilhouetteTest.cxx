@@ -11,6 +11,13 @@ using namespace reference;
 namespace
 {
 
+// Of a grid of 200 x 200; CheckGrid halves it under sanitizers.
+#ifdef NURBS_SANITIZE
+constexpr int LeastChanges = 50;
+#else
+constexpr int LeastChanges = 100;
+#endif
+
 const double Pi = std::acos(-1.0);
 
 // A circle in the domain, in one rational piece a quarter.
@@ -119,7 +126,7 @@ TEST(TrimmedSilhouette, EndsLieOnBothCurves)
       }
       const GridCheck grid = CheckGrid(model, 0, result, viewer, precision, 200,
         [&](const Vec2& uv) { return (uv - middle).norm() < 0.36 && (uv - hole).norm() > 0.13; });
-      EXPECT_GT(grid.Changes, 50);
+      EXPECT_GT(grid.Changes, LeastChanges);
       EXPECT_EQ(grid.Missed, 0);
     }
   }
