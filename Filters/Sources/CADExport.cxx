@@ -73,7 +73,7 @@ Rgb CommonColor(const CADPart& part)
   Rgb common = part.Colors.front();
   for (std::size_t f = 0; f < part.Faces.size(); ++f)
   {
-    if (!part.Faces[f].IsNull() && ++counts[part.Colors[f]] > counts[common])
+    if (++counts[part.Colors[f]] > counts[common])
     {
       common = part.Colors[f];
     }
@@ -128,7 +128,7 @@ private:
       const bool colored = !part.Colors.empty() && part.Colors[f] != common;
       const bool named =
         !part.FaceNames.empty() && !part.FaceNames[f].empty() && part.FaceNames[f] != part.Name;
-      if (part.Faces[f].IsNull() || (!colored && !named))
+      if (!colored && !named)
       {
         continue;
       }
@@ -285,6 +285,10 @@ std::string TryToWrite(const CADContent& content, CADFormat format, const std::s
     const char* text = failure.GetMessageString();
     return std::string("OpenCASCADE fails to make ") + NameOf(format) +
       " of it: " + (text && *text ? text : failure.DynamicType()->Name());
+  }
+  catch (const std::exception& failure) // OpenCASCADE's streams throw when a disk is full.
+  {
+    return std::string("the disk may be full (") + failure.what() + ")";
   }
   return written ? "" : "the disk may be full, or OpenCASCADE could not translate the shape";
 }

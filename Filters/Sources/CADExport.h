@@ -25,8 +25,8 @@ namespace nurbs
 struct CADPart
 {
   TopoDS_Shape Shape;
-  std::string Name;                                ///< UTF-8.
-  std::vector<TopoDS_Face> Faces;                  ///< Null faces are left out.
+  std::string Name; ///< UTF-8.
+  std::vector<TopoDS_Face> Faces;
   std::vector<std::string> FaceNames;              ///< One a face, UTF-8; or empty.
   std::vector<std::array<std::uint8_t, 3>> Colors; ///< sRGB, one a face; or empty.
 };

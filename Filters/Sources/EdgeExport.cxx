@@ -305,7 +305,7 @@ double Preparer::Deviation(const ExportEdge& edge) const
       return (this->Lift(evaluator, view, t) - Evaluate(curve, t)).norm();
     };
     largest = std::max(
-      largest, LargestValue(distance, SampleParameters(view, curve), this->Options.CurveTolerance));
+      largest, LargestValue(distance, SampleParameters(view, curve), this->Options.Negligible));
   }
   return NoSlack * largest;
 }

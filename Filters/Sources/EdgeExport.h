@@ -20,6 +20,7 @@ namespace nurbs
 struct EdgeExportOptions
 {
   double CurveTolerance = 0.0; ///< What a fitted curve may deviate, length.
+  double Negligible = 0.0;     ///< Deviations up to this need no closer look, length.
   double Gap = 0.0; ///< Faces up to this far apart share an edge, length; or up to its tolerance.
 };
 

@@ -49,7 +49,6 @@ public:
   }
 
 private:
-  bool IsThere(const BodyUse& use) const { return !this->Faces[use.Face].IsNull(); }
   std::int64_t Find(std::int64_t face)
   {
     while (this->Parent[face] != face)
@@ -68,7 +67,7 @@ private:
   const std::vector<TopoDS_Face>& Faces;
   const std::vector<BodyLink>& Links;
   std::vector<std::int64_t> Parent;
-  std::vector<std::int64_t> ShellOf; ///< One a face; -1: there is no face.
+  std::vector<std::int64_t> ShellOf; ///< One a face.
   std::vector<Shell> Shells;
 };
 
@@ -81,11 +80,8 @@ void Gatherer::JoinFaces()
     std::int64_t first = -1;
     for (const BodyUse& use : link)
     {
-      if (this->IsThere(use))
-      {
-        first = first < 0 ? use.Face : first;
-        this->Parent[this->Find(use.Face)] = this->Find(first);
-      }
+      first = first < 0 ? use.Face : first;
+      this->Parent[this->Find(use.Face)] = this->Find(first);
     }
   }
 }
@@ -97,10 +93,6 @@ void Gatherer::MakeShells()
   std::vector<std::int64_t> ofRoot(this->Faces.size(), -1);
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
-    if (this->Faces[f].IsNull())
-    {
-      continue;
-    }
     std::int64_t& shell = ofRoot[this->Find(static_cast<std::int64_t>(f))];
     if (shell < 0)
     {
@@ -120,12 +112,12 @@ void Gatherer::FindOpenShells()
     int uses = 0, balance = 0;
     for (const BodyUse& use : link)
     {
-      uses += this->IsThere(use) ? 1 : 0;
-      balance += this->IsThere(use) ? (use.Backwards ? -1 : 1) : 0;
+      ++uses;
+      balance += use.Backwards ? -1 : 1;
     }
     for (const BodyUse& use : link)
     {
-      if (this->IsThere(use) && (uses != 2 || balance != 0))
+      if (uses != 2 || balance != 0)
       {
         this->Shells[this->ShellOf[use.Face]].Closed = false;
       }

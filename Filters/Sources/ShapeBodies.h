@@ -30,7 +30,7 @@ struct Bodies
 /// Faces that are linked become a shell, in the order of the faces. A shell all of whose edges are
 /// used once each way is closed. A closed shell around a positive volume becomes a solid; one around
 /// a negative volume becomes a cavity of the smallest solid that it lies in, or stays a shell.
-/// @param faces oriented; null faces are left out.
+/// @param faces oriented.
 Bodies MakeBodies(const std::vector<TopoDS_Face>& faces, const std::vector<BodyLink>& links);
 
 } // namespace nurbs

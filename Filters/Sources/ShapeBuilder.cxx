@@ -2,6 +2,7 @@
 #include "ShapeBuilder.h"
 
 #include "EdgeExport.h"
+#include "LoopNesting.h"
 #include "ShapeBodies.h"
 #include "SplineExport.h"
 
@@ -37,7 +38,6 @@ public:
     , Abort(abort)
   {
     this->Result.FaceErrors = faceErrors;
-    this->Result.Faces.resize(faceErrors.size());
     this->ExportSurfaces(model);
     this->Size = this->MeasureSize(model);
     this->Whole =
@@ -49,6 +49,7 @@ public:
     EdgeExportOptions lengths;
     lengths.CurveTolerance = this->Options.CurveTolerance * this->Size;
     lengths.Gap = this->Options.Gap * this->Size;
+    lengths.Negligible = 0.5 * Precision::Confusion() / this->Options.Scale;
     this->Edges =
       PrepareEdges(this->Whole, this->Result.FaceErrors, lengths, this->Parallel, this->Abort);
     if (this->Abort)
@@ -57,7 +58,8 @@ public:
     }
     this->MakeVertices();
     this->Shapes.resize(this->Edges.Edges.size());
-    for (std::size_t f = 0; f < this->Result.Faces.size(); ++f)
+    this->FaceOfLoop.assign(this->Whole.Data.Loops.size(), -1);
+    for (std::size_t f = 0; f < this->Whole.Data.Faces.size(); ++f)
     {
       this->TryFace(f);
     }
@@ -80,7 +82,7 @@ private:
   double MeasureSize(const Model& model) const;
   void MakeVertices();
   void TryFace(std::size_t f);
-  std::vector<Wire> ExportWires(const Face& face) const;
+  std::vector<Wire> ExportWires(const std::vector<std::int64_t>& loops) const;
   TopoDS_Edge& EdgeShape(std::int64_t edge);
   void AttachPcurves(const std::vector<Wire>& wires, const Handle(Geom_Surface) & surface);
   TopoDS_Face MakeFace(const std::vector<Wire>& wires, const Handle(Geom_Surface) & surface);
@@ -101,6 +103,7 @@ private:
   std::vector<Handle(Geom_BSplineSurface)> Surfaces;
   std::vector<TopoDS_Vertex> Vertices;
   std::vector<TopoDS_Edge> Shapes;
+  std::vector<std::int64_t> FaceOfLoop; ///< Index into the result's faces, or -1.
   BuiltShape Result;
 };
 
@@ -175,10 +178,10 @@ TopoDS_Edge& ShapeMaker::EdgeShape(std::int64_t index)
   return shape;
 }
 
-std::vector<ShapeMaker::Wire> ShapeMaker::ExportWires(const Face& face) const
+std::vector<ShapeMaker::Wire> ShapeMaker::ExportWires(const std::vector<std::int64_t>& loops) const
 {
   std::vector<Wire> wires;
-  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+  for (const std::int64_t l : loops)
   {
     const TrimLoop& loop = this->Whole.Data.Loops[l];
     Wire wire;
@@ -262,10 +265,26 @@ void ShapeMaker::TryFace(std::size_t f)
   const Face& face = this->Whole.Data.Faces[f];
   try
   {
-    const std::vector<Wire> wires = this->ExportWires(face);
-    this->AttachPcurves(wires, this->Surfaces[f]);
-    this->Result.Faces[f] = this->MakeFace(wires, this->Surfaces[f]);
-    this->Result.Faces[f].Orientation(face.Reversed ? TopAbs_REVERSED : TopAbs_FORWARD);
+    const std::vector<std::vector<std::int64_t>> groups = GroupLoops(this->Whole.Data, face);
+    std::vector<std::vector<Wire>> pieces;
+    std::vector<Wire> all;
+    for (const std::vector<std::int64_t>& loops : groups)
+    {
+      pieces.push_back(this->ExportWires(loops));
+      all.insert(all.end(), pieces.back().begin(), pieces.back().end());
+    }
+    this->AttachPcurves(all, this->Surfaces[f]);
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+    {
+      for (const std::int64_t l : groups[k])
+      {
+        this->FaceOfLoop[l] = static_cast<std::int64_t>(this->Result.Faces.size());
+      }
+      this->Result.Faces.push_back(this->MakeFace(pieces[k], this->Surfaces[f]));
+      this->Result.Faces.back().Orientation(face.Reversed ? TopAbs_REVERSED : TopAbs_FORWARD);
+      this->Result.FaceOf.push_back(static_cast<std::int64_t>(f));
+    }
+    this->Result.SplitFaces += pieces.size() > 1;
   }
   catch (const Error& error)
   {
@@ -296,6 +315,12 @@ void ShapeMaker::Count()
 
 void ShapeMaker::GatherBodies()
 {
+  std::vector<std::int64_t> faceOf(this->Whole.Data.TrimCurves.size(), -1);
+  for (std::size_t l = 0; l < this->FaceOfLoop.size(); ++l)
+  {
+    const TrimLoop& loop = this->Whole.Data.Loops[l];
+    std::fill_n(faceOf.begin() + loop.FirstCurve, loop.CurveCount, this->FaceOfLoop[l]);
+  }
   std::vector<BodyLink> links;
   for (const ExportEdge& edge : this->Edges.Edges)
   {
@@ -307,7 +332,11 @@ void ShapeMaker::GatherBodies()
     for (const EdgeUse& use : edge.Uses)
     {
       const bool reversed = this->Whole.Data.TrimCurves[use.Curve].Reversed;
-      link.push_back({ use.Face, reversed != this->Whole.Data.Faces[use.Face].Reversed });
+      if (faceOf[use.Curve] >= 0)
+      {
+        link.push_back(
+          { faceOf[use.Curve], reversed != this->Whole.Data.Faces[use.Face].Reversed });
+      }
     }
     links.push_back(std::move(link));
   }
@@ -378,7 +407,7 @@ std::vector<ShapeFault> CheckShape(const BuiltShape& built)
   }
   for (std::size_t f = 0; f < built.Faces.size(); ++f)
   {
-    if (built.Faces[f].IsNull() || analyzer.IsValid(built.Faces[f]))
+    if (analyzer.IsValid(built.Faces[f]))
     {
       continue;
     }
@@ -390,7 +419,7 @@ std::vector<ShapeFault> CheckShape(const BuiltShape& built)
         AppendReasons(analyzer, it.Current(), reasons);
       }
     }
-    faults.push_back({ static_cast<std::int64_t>(f), Joined(reasons) });
+    faults.push_back({ built.FaceOf[f], Joined(reasons) });
   }
   for (TopExp_Explorer it(built.Shape, TopAbs_SHELL); it.More(); it.Next())
   {

@@ -3,7 +3,7 @@
 /// @brief A trimmed model as a shape of OpenCASCADE: faces sewn to shells and solids.
 ///
 /// Every face keeps its surface (SplineExport), its loops as wires of trim curves, and its
-/// orientation. Faces that share an edge of the model share a TopoDS_Edge (EdgeExport tells what its
+/// orientation; one of several pieces becomes several faces on one surface. Faces that share an edge of the model share a TopoDS_Edge (EdgeExport tells what its
 /// curve and tolerance are). Faces that hang together so become a shell; a closed shell whose outside
 /// is outside becomes a solid, with the closed shells inside it that are turned inwards as its
 /// cavities. Faces without loops get their natural boundary, and share the sides that coincide.
@@ -30,8 +30,10 @@ struct ShapeOptions
 struct BuiltShape
 {
   TopoDS_Shape Shape;                  ///< A body or a compound of bodies; null without a face.
-  std::vector<TopoDS_Face> Faces;      ///< One a face of the model; null if it could not be built.
-  std::vector<std::string> FaceErrors; ///< One a face: why it could not be built, or "".
+  std::vector<TopoDS_Face> Faces;      ///< Those that could be built, by face of the model.
+  std::vector<std::int64_t> FaceOf;    ///< The face of the model that each of Faces is, or is of.
+  std::vector<std::string> FaceErrors; ///< One a face of the model: why it can't be built, or "".
+  std::int64_t SplitFaces = 0;         ///< Faces of the model that are several of Faces.
   std::int64_t Solids = 0;
   std::int64_t Shells = 0;        ///< That are no part of a solid.
   std::int64_t Edges = 0;         ///< Poles left out.

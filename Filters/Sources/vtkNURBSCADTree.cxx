@@ -235,18 +235,19 @@ std::string Find(vtkDataObject* input, std::vector<Block>& blocks)
   return problem;
 }
 
-void DescribeFaces(vtkUnstructuredGrid* grid, nurbs::CADPart& part)
+void DescribeFaces(
+  vtkUnstructuredGrid* grid, const std::vector<std::int64_t>& cells, nurbs::CADPart& part)
 {
-  vtkCellData* cells = grid->GetCellData();
+  vtkCellData* data = grid->GetCellData();
   const vtkIdType count = grid->GetNumberOfCells();
-  auto* names = vtkStringArray::SafeDownCast(cells->GetAbstractArray(vtkNURBSModel::NameName()));
+  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray(vtkNURBSModel::NameName()));
   auto* colors =
-    vtkUnsignedCharArray::SafeDownCast(cells->GetAbstractArray(vtkNURBSModel::ColorName()));
+    vtkUnsignedCharArray::SafeDownCast(data->GetAbstractArray(vtkNURBSModel::ColorName()));
   if (names && names->GetNumberOfValues() == count)
   {
-    for (vtkIdType i = 0; i < count; ++i)
+    for (const std::int64_t cell : cells)
     {
-      part.FaceNames.push_back(names->GetValue(i));
+      part.FaceNames.push_back(names->GetValue(cell));
     }
     const bool same = std::all_of(part.FaceNames.begin(), part.FaceNames.end(),
       [&part](const std::string& name) { return name == part.FaceNames.front(); });
@@ -254,9 +255,9 @@ void DescribeFaces(vtkUnstructuredGrid* grid, nurbs::CADPart& part)
   }
   if (colors && colors->GetNumberOfComponents() >= 3 && colors->GetNumberOfTuples() == count)
   {
-    for (vtkIdType i = 0; i < count; ++i)
+    for (const std::int64_t cell : cells)
     {
-      const unsigned char* rgb = colors->GetPointer(i * colors->GetNumberOfComponents());
+      const unsigned char* rgb = colors->GetPointer(cell * colors->GetNumberOfComponents());
       part.Colors.push_back({ { rgb[0], rgb[1], rgb[2] } });
     }
   }

@@ -30,9 +30,10 @@ struct Block
 /// if nothing is; does not look at what the arrays hold.
 std::string Find(vtkDataObject* input, std::vector<Block>& blocks);
 
-/// Fills in names and colours of the faces as far as the grid has them, and the name that all faces
-/// share, if they do, as the part's.
-void DescribeFaces(vtkUnstructuredGrid* grid, nurbs::CADPart& part);
+/// Fills in names and colours of the part's faces as far as the grid has them, and the name that all
+/// cells share, if they do, as the part's. `cells`: the cell of each face.
+void DescribeFaces(
+  vtkUnstructuredGrid* grid, const std::vector<std::int64_t>& cells, nurbs::CADPart& part);
 
 /// Fills in the nodes of the tree and the names of the parts. `parts` has the index of each block's
 /// part, or -1. Below the root of the input's vtkDataAssembly, each node is one; without an assembly

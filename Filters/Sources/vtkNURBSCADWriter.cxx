@@ -103,6 +103,7 @@ bool vtkNURBSCADWriter::Fail(unsigned long code, const std::string& message)
 void vtkNURBSCADWriter::ClearFigures()
 {
   this->NumberOfFaces = this->NumberOfFailedFaces = this->NumberOfInvalidFaces = 0;
+  this->NumberOfSplitFaces = 0;
   this->NumberOfSolids = this->NumberOfShells = 0;
   this->NumberOfEdges = this->NumberOfSharedEdges = 0;
   this->NumberOfComputedEdges = this->NumberOfTornEdges = 0;
@@ -242,10 +243,8 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
   for (std::size_t i = 0; i < work.Shapes.size(); ++i)
   {
     const nurbs::BuiltShape& shape = work.Shapes[i];
-    for (const TopoDS_Face& face : shape.Faces)
-    {
-      this->NumberOfFaces += face.IsNull() ? 0 : 1;
-    }
+    this->NumberOfFaces += static_cast<vtkIdType>(shape.Faces.size());
+    this->NumberOfSplitFaces += shape.SplitFaces;
     this->NumberOfSolids += shape.Solids;
     this->NumberOfShells += shape.Shells;
     this->NumberOfEdges += shape.Edges;
@@ -287,7 +286,7 @@ bool vtkNURBSCADWriter::Save(Work& work)
       nurbs::CADPart& part = work.Content.Parts.back();
       part.Shape = work.Shapes[i].Shape;
       part.Faces = work.Shapes[i].Faces;
-      vtkNURBSCADTree::DescribeFaces(work.Blocks[i].Grid, part);
+      vtkNURBSCADTree::DescribeFaces(work.Blocks[i].Grid, work.Shapes[i].FaceOf, part);
     }
   }
   vtkNURBSCADTree::MakeNodes(this->GetInput(), work.Blocks, parts, stem, work.Content);
@@ -347,6 +346,7 @@ void vtkNURBSCADWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Gap: " << this->Gap << "\n";
   os << indent << "Check: " << (this->Check ? "on" : "off") << "\n";
   os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
+  os << indent << "NumberOfSplitFaces: " << this->NumberOfSplitFaces << "\n";
   os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
   os << indent << "NumberOfSolids: " << this->NumberOfSolids << "\n";
   os << indent << "NumberOfShells: " << this->NumberOfShells << "\n";

@@ -110,12 +110,13 @@ public:
 
   ///@{
   /**
-   * Of the last file: faces written and left out; solids, shells that are no part of one, edges
+   * Of the last file: faces written; cells that were split into several, and left out; solids, shells that are no part of one, edges
    * (without poles), of them those that faces share, those whose curve was computed, and edges of
    * the model that were torn; faces that BRepCheck_Analyzer found fault with; the largest tolerance
    * of an edge, in the model's unit. 0 before the first one and after an error.
    */
   vtkGetMacro(NumberOfFaces, vtkIdType);
+  vtkGetMacro(NumberOfSplitFaces, vtkIdType);
   vtkGetMacro(NumberOfFailedFaces, vtkIdType);
   vtkGetMacro(NumberOfSolids, vtkIdType);
   vtkGetMacro(NumberOfShells, vtkIdType);
@@ -154,6 +155,7 @@ private:
   bool Check = true;
 
   vtkIdType NumberOfFaces = 0;
+  vtkIdType NumberOfSplitFaces = 0;
   vtkIdType NumberOfFailedFaces = 0;
   vtkIdType NumberOfSolids = 0;
   vtkIdType NumberOfShells = 0;
