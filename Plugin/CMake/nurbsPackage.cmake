@@ -37,10 +37,13 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME vtknurbs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Trimmed NURBS surfaces in VTK pipelines and ParaView
- Reads STEP, IGES and BREP files as exact trimmed surfaces; meshes them within a certified error, draws them on the
- GPU, deforms them, tells what is visible, and makes line drawings. The vtknurbs tool, the Python package vtknurbs, the
- ParaView plugin NURBS and their libraries.")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION
+"Reads STEP, IGES and BREP files as exact trimmed surfaces, meshes them
+within a certified error, draws them on the GPU, deforms them, tells what
+is visible, and makes line drawings.
+.
+The vtknurbs tool, the Python package vtknurbs, the ParaView plugin NURBS
+and their libraries.")
 # The libraries that are linked, by dpkg-shlibdeps; ParaView's bring its exact version.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 if (NURBS_VTK_FLAVOUR_FOUND STREQUAL "paraview")
@@ -53,13 +56,13 @@ endif ()
 set(python_minor "${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}")
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${vtk_python}, python3 (>= ${python_minor}~), \
-python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~), libegl1, libgl1-mesa-dri")
+python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~), libgl1-mesa-dri")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS occt-misc)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME vtknurbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Trimmed NURBS surfaces in VTK pipelines, development files
- Headers of vtkNURBS and its CMake package: find_package(vtkNURBS).")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+  "Headers of vtkNURBS and its CMake package: find_package(vtkNURBS).")
 # What find_package(VTK) of Debian's package looks for besides its own files is in ./run packages.
 execute_process(COMMAND "${PROJECT_SOURCE_DIR}/run" packages development
   OUTPUT_VARIABLE development OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
