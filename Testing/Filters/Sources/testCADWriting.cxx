@@ -108,6 +108,7 @@ vtkSmartPointer<vtkUnstructuredGrid> Shape(int shape)
 {
   vtkNew<vtkNURBSShapeSource> source;
   source->SetShape(shape);
+  source->SetNumberOfPatches(60);
   source->Update();
   return source->GetOutput();
 }

@@ -29,7 +29,7 @@ double VolumeOf(const TopoDS_Shape& shape);
 std::string Write(vtkNURBSCADWriter* writer, vtkDataObject* model, const std::string& name);
 std::string Write(vtkDataObject* model, const std::string& name);
 
-/// A shape of vtkNURBSShapeSource.
+/// A shape of vtkNURBSShapeSource; the car body has some 60 patches.
 vtkSmartPointer<vtkUnstructuredGrid> Shape(int shape);
 
 /// Names the faces: `start` and the cell's index.
