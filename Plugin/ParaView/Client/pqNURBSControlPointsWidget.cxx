@@ -136,6 +136,15 @@ bool pqNURBSControlPointsWidget::isShown()
   return this->isSelected() && this->isWidgetVisible() && this->view();
 }
 
+// The superclass would take handles that never showed, as the panel was not selected yet, for
+// unwanted ones when the panel comes back.
+void pqNURBSControlPointsWidget::hideEvent(QHideEvent* event)
+{
+  const bool wanted = this->isWidgetVisible();
+  this->pqInteractivePropertyWidget::hideEvent(event);
+  this->VisibleState = wanted;
+}
+
 void pqNURBSControlPointsWidget::placeWidget()
 {
   this->refresh();

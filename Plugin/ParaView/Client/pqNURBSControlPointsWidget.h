@@ -31,6 +31,8 @@ public:
   pqNURBSControlPointsWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqNURBSControlPointsWidget() override;
 
+  void hideEvent(QHideEvent* event) override;
+
 protected Q_SLOTS:
   void placeWidget() override;
   void updateWidgetVisibility() override;
