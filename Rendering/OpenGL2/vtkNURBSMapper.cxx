@@ -34,7 +34,7 @@
 #include "vtk_glew.h"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 vtkStandardNewMacro(vtkNURBSMapper);
 
@@ -357,6 +357,41 @@ void vtkNURBSMapper::UpdateCameraShiftScale(vtkRenderer* renderer, vtkActor* act
   this->VBOInverseTransform->GetTranspose(this->VBOShiftScale);
 }
 
+// Sets Selection: the tiles that View needs.
+void vtkNURBSMapper::Internals::SelectTiles()
+{
+  constexpr int Batch = 64;
+  constexpr std::size_t Many = 32; // batches that are worth starting threads
+  const nurbs::SurfaceTable& table = this->Model.GetTable();
+  std::vector<nurbs::TileSelection> parts((table.Size() + Batch - 1) / Batch);
+  std::optional<vtkNURBSParallelScope> parallel;
+  if (parts.size() > Many)
+  {
+    parallel.emplace();
+  }
+  vtkNURBSParallelFor(
+    0, static_cast<std::int64_t>(parts.size()), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t p = first; p < last; ++p)
+      {
+        const int end = std::min(static_cast<int>(p + 1) * Batch, table.Size());
+        for (int s = static_cast<int>(p) * Batch; s < end; ++s)
+        {
+          if (!this->Looks.IsHidden(s))
+          {
+            nurbs::SelectTiles(table, s, this->View, parts[p]);
+          }
+        }
+      }
+    });
+  this->Selection = nurbs::TileSelection();
+  for (const nurbs::TileSelection& part : parts)
+  {
+    this->Selection.Tiles.insert(this->Selection.Tiles.end(), part.Tiles.begin(), part.Tiles.end());
+    this->Selection.Cells += part.Cells;
+    this->Selection.PixelError = std::max(this->Selection.PixelError, part.PixelError);
+  }
+}
+
 // Selects and evaluates the tiles that this view needs.
 void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
@@ -396,31 +431,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   }
   c.View = view;
   c.ViewedVersion = c.ModelVersion;
-  const nurbs::SurfaceTable& table = c.Model.GetTable();
-  constexpr int Batch = 64;
-  std::vector<nurbs::TileSelection> parts((table.Size() + Batch - 1) / Batch);
-  vtkNURBSParallelFor(
-    0, static_cast<std::int64_t>(parts.size()), [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t p = first; p < last; ++p)
-      {
-        const int end = std::min(static_cast<int>(p + 1) * Batch, table.Size());
-        for (int s = static_cast<int>(p) * Batch; s < end; ++s)
-        {
-          if (!c.Looks.IsHidden(s))
-          {
-            nurbs::SelectTiles(table, s, view, parts[p]);
-          }
-        }
-      }
-    });
-  c.Selection = nurbs::TileSelection();
-  for (const nurbs::TileSelection& part : parts)
-  {
-    c.Selection.Tiles.insert(c.Selection.Tiles.end(), part.Tiles.begin(), part.Tiles.end());
-    c.Selection.Cells += part.Cells;
-    c.Selection.PixelError = std::max(c.Selection.PixelError, part.PixelError);
-  }
-  c.TilesAreReady = c.Textures.Prepare(window, table, c.Selection.Tiles);
+  c.SelectTiles();
+  c.TilesAreReady = c.Textures.Prepare(window, c.Model.GetTable(), c.Selection.Tiles);
   if (!c.TilesAreReady)
   {
     vtkErrorMacro(
