@@ -48,6 +48,28 @@ int Coarser(int shape, int levels)
   return std::max(shape % Row - levels, 0) + Row * std::max(shape / Row - levels, 0);
 }
 
+// Draws no more than a selector reads: it draws many frames, often for a pixel. `area`: x and y of the
+// first pixel and of the last.
+void ScissorTo(vtkOpenGLState* state, const unsigned int* area)
+{
+  int box[4];
+  state->vtkglGetIntegerv(GL_SCISSOR_BOX, box);
+  const bool on = state->GetEnumState(GL_SCISSOR_TEST);
+  int low[2], high[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    low[k] = static_cast<int>(area[k]);
+    high[k] = static_cast<int>(area[k + 2]) + 1;
+    if (on)
+    {
+      low[k] = std::max(low[k], box[k]);
+      high[k] = std::min(high[k], box[k] + box[k + 2]);
+    }
+  }
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(low[0], low[1], std::max(high[0] - low[0], 0), std::max(high[1] - low[1], 0));
+}
+
 // The actor's matrix, from the model's coordinates to the world's.
 void GetModelToWorld(vtkActor* actor, vtkMatrix4x4* matrix)
 {
@@ -510,6 +532,11 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
       window->GetState()->vtkglLineWidth(actor->GetProperty()->GetLineWidth());
     }
     vtkOpenGLState::ScopedglEnableDisable culling(window->GetState(), GL_CULL_FACE);
+    vtkOpenGLState::ScopedglScissor scissor(window->GetState());
+    if (vtkHardwareSelector* selector = renderer->GetSelector())
+    {
+      ScissorTo(window->GetState(), selector->GetArea());
+    }
     if (this->DrawsExactly(actor))
     {
       window->GetState()->vtkglDisable(GL_CULL_FACE); // fragments know their side better

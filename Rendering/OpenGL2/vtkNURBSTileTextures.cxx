@@ -185,6 +185,7 @@ bool vtkNURBSTileTextures::PlaceTiles(vtkOpenGLRenderWindow* window,
   {
     fits = true;
     jobs.clear();
+    jobs.reserve(sorted.size());
     this->TileTexels.clear();
     this->TileTexels.reserve(4 * sorted.size());
     for (std::size_t i = 0; i < sorted.size() && fits; ++i)
