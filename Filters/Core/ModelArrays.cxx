@@ -339,7 +339,7 @@ private:
   AssembledModel Result;
   std::string TrimReason;                ///< Why no face can be trimmed, or "".
   std::vector<std::string> CurveReasons; ///< Why a trim curve is bad, or "".
-  std::vector<std::vector<std::string>> FaceWarnings;
+  std::vector<std::vector<std::string>> EdgeWarnings, FaceWarnings;
 };
 
 void Assembler::AddVertices()
@@ -361,7 +361,7 @@ void Assembler::AddEdge(std::int64_t i)
 {
   Edge edge;
   const auto warn = [&](const std::string& reason) {
-    this->Warn(-1, "edge " + std::to_string(i) + ": " + reason);
+    this->EdgeWarnings[i].push_back("edge " + std::to_string(i) + ": " + reason);
   };
   if (this->A.EdgePointCount[i] != 0)
   {
@@ -409,9 +409,19 @@ void Assembler::AddEdges()
     return;
   }
   this->Result.Model.Edges.resize(this->A.EdgeDegree.size());
-  for (std::int64_t i = 0; i < Count(this->A.EdgeDegree); ++i)
+  this->EdgeWarnings.resize(this->A.EdgeDegree.size());
+  this->Parallel(0, Count(this->A.EdgeDegree), [this](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      this->AddEdge(i);
+    }
+  });
+  for (const std::vector<std::string>& warnings : this->EdgeWarnings)
   {
-    this->AddEdge(i);
+    for (const std::string& warning : warnings)
+    {
+      this->Warn(-1, warning);
+    }
   }
 }
 
