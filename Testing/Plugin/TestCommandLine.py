@@ -115,7 +115,7 @@ class Help(unittest.TestCase):
     def test_help_shows_commands_and_examples(self):
         out, err = tool("--help")
         self.assertEqual(err, "")
-        commands = ("info", "tessellate", "render", "drawing", "visible")
+        commands = ("info", "tessellate", "render", "drawing", "visible", "convert")
         for word in (*commands, "Examples:", "Usage: vtknurbs COMMAND"):
             self.assertIn(word, out)
         for command in commands:
