@@ -166,6 +166,10 @@ std::array<double, 3> ParseView(const std::string& text)
 {
   const auto named = Views.find(text);
   std::array<double, 3> view = { 0, 0, 0 };
+  if (named == Views.end() && ReadVector(text, view) && view == std::array<double, 3>{ 0, 0, 0 })
+  {
+    throw CLI::ValidationError("--view", "the direction '" + text + "' has length zero");
+  }
   if (named == Views.end() && !ReadDirection(text, view))
   {
     throw CLI::ValidationError(
