@@ -78,7 +78,7 @@ private:
   void SolveAll(std::size_t first);
   void Solve(ExportEdge& edge) const;
   void SolveCurve(ExportEdge& edge) const;
-  bool IsPole(const ExportEdge& edge) const;
+  bool IsPole(ExportEdge& edge) const;
   double Deviation(const ExportEdge& edge) const;
   std::size_t TearEdges();
   void AssignEdges();
@@ -219,8 +219,8 @@ void Preparer::SolveAll(std::size_t first)
     [this](std::size_t i) { this->Solve(this->Result.Edges[i]); });
 }
 
-/// A side of a surface that is one point, and has some length in (u, v).
-bool Preparer::IsPole(const ExportEdge& edge) const
+/// True for a side of a surface that is one point, but for the edge's tolerance, which is set.
+bool Preparer::IsPole(ExportEdge& edge) const
 {
   constexpr int Samples = 16;
   const Edge& source = this->Data.Edges[edge.Source];
@@ -239,8 +239,10 @@ bool Preparer::IsPole(const ExportEdge& edge) const
       box.extend(this->Lift(evaluator, trim, domain.Min + domain.Length() * i / Samples));
     }
   }
-  const double stated = source.Geometry.Count == 1 ? StatedSlack * source.Tolerance : 0.0;
-  return box.diagonal().norm() <= std::max(PoleShare * this->Size, stated);
+  // A pole's tolerance is the distance from its place, so the box may be larger.
+  const double stated = source.Geometry.Count == 1 ? 4.0 * source.Tolerance : 0.0;
+  edge.Tolerance = box.diagonal().norm();
+  return edge.Tolerance <= std::max(PoleShare * this->Size, stated);
 }
 
 void Preparer::Solve(ExportEdge& edge) const

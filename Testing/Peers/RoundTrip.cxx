@@ -26,6 +26,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
 
 namespace
 {
@@ -181,6 +182,14 @@ Deviations Compare(vtkUnstructuredGrid* grid, const ReferenceShape& original,
   return worst;
 }
 
+/// Over all files, by format.
+struct Total
+{
+  int Files = 0, Agreeing = 0;
+  long long Faces = 0, Invalid = 0;
+};
+std::map<std::string, Total> Totals;
+
 /// False if a face is lost, turned or off by more than `limit` of the diagonal.
 bool Report(const std::string& file, const std::string& ending, double limit, bool listed)
 {
@@ -213,9 +222,15 @@ bool Report(const std::string& file, const std::string& ending, double limit, bo
     writer->GetEdgeTolerance() / original.Diagonal, off.Inverted > 0 ? " TURNED" : "");
   std::fflush(stdout);
   std::filesystem::remove(out);
-  return off.Inverted == 0 && off.Lost == 0 && off.Surface <= limit * original.Diagonal &&
-    off.Loops <= limit * original.Diagonal &&
+  const bool agrees = off.Inverted == 0 && off.Lost == 0 &&
+    std::max(off.Surface, off.Loops) <= limit * original.Diagonal &&
     again->GetNumberOfCells() >= writer->GetNumberOfFaces();
+  Total& total = Totals[ending];
+  ++total.Files;
+  total.Agreeing += agrees ? 1 : 0;
+  total.Faces += writer->GetNumberOfFaces();
+  total.Invalid += writer->GetNumberOfInvalidFaces();
+  return agrees;
 }
 
 } // namespace
@@ -266,6 +281,13 @@ int main(int argc, char** argv)
         status = 2;
       }
     }
+  }
+  for (const auto& [format, total] : Totals)
+  {
+    std::printf(
+      "%s: %d of %d files agree within %g of the diagonal; %lld faces written, %lld of them "
+      "not valid\n",
+      format.c_str(), total.Agreeing, total.Files, limit, total.Faces, total.Invalid);
   }
   return status;
 }

@@ -157,6 +157,19 @@ TEST(CADWriter, CavitiesStayInTheirSolid)
   }
 }
 
+TEST(CADWriter, PolesThatAreNoPointsButForTheirToleranceStayPoles)
+{
+  const char* const file = "/usr/share/opencascade/data/occ/Bottom.brep";
+  const auto model = ReadOne(file);
+  vtkNew<vtkNURBSCADWriter> writer;
+  writer->CheckOff();
+  const TopoDS_Shape read = ReadShape(Write(writer, model, "poles.brep"));
+  EXPECT_EQ(writer->GetNumberOfSolids(), 1);
+  EXPECT_EQ(writer->GetNumberOfEdges(), writer->GetNumberOfSharedEdges());
+  EXPECT_EQ(CountOf(read, TopAbs_SOLID), 1);
+  EXPECT_EQ(SharedEdges(read), SharedEdges(ReadShape(file)));
+}
+
 TEST(CADWriter, VisibleRegionsHaveTheirArea)
 {
   const auto model = ReadOne("/usr/share/opencascade/data/occ/Ball.brep");
