@@ -25,6 +25,11 @@ endforeach ()
 run("${CMAKE_COMMAND}" -G Ninja -S "${CMAKE_CURRENT_LIST_DIR}/Package" -B "${scratch}/build"
   "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER=${COMPILER}")
 run("${CMAKE_COMMAND}" --build "${scratch}/build")
+if (PYTHON)
+  # A Python program that has nothing of the build tree.
+  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PYTHON}"
+    "${CMAKE_CURRENT_LIST_DIR}/TestPythonArrays.py")
+endif ()
 if (PVPYTHON)
   # ParaView's plugin where it was installed, with the libraries and the Python package beside it.
   file(GLOB plugin "${prefix}/*/paraview-*/plugins/NURBS/NURBS.so")
