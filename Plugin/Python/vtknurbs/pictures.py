@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures without a display: models and what filters make of them, drawn through EGL."""
 
-from typing import Any, Optional, Sequence, Tuple, Union
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 from vtkmodules import vtkRenderingOpenGL2  # noqa: F401, makes vtkRenderer draw with OpenGL
@@ -11,12 +11,17 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
-    vtkCompositePolyDataMapper,
     vtkMapper,
+    vtkPolyDataMapper,
     vtkProp,
     vtkRenderer,
     vtkWindowToImageFilter,
 )
+
+try:
+    from vtkmodules.vtkRenderingOpenGL2 import vtkCompositePolyDataMapper2 as CompositeMapper
+except ImportError:  # VTK 9.3 and later
+    from vtkmodules.vtkRenderingCore import vtkCompositePolyDataMapper as CompositeMapper
 
 from .surfaces import blocks, models
 from .vtkNURBSFiltersCore import vtkNURBSModel
@@ -31,7 +36,7 @@ Vector = Sequence[float]
 def make_actor(what: Any, color: Vector = (0.8, 0.82, 0.86)) -> vtkActor:
     """An actor of a filter, an output port, data or a mapper.
 
-    Models are drawn exactly, by vtkNURBSMapper; polygons and lines by vtkCompositePolyDataMapper.
+    Models are drawn exactly, by vtkNURBSMapper; polygons and lines by VTK's own mappers.
     The faces' own colours show where there are any (a cell array Color), else `color`, 0 to 1.
     """
     mapper = what if isinstance(what, vtkMapper) else _mapper(what)
@@ -98,7 +103,7 @@ def render(*things: Any, file: Optional[str] = None, **options: Any) -> np.ndarr
     return grab(make_window(*things, **options), file)
 
 
-def _mapper(what: Any) -> Union[vtkNURBSMapper, vtkCompositePolyDataMapper]:
+def _mapper(what: Any) -> vtkMapper:
     port = what.GetOutputPort() if isinstance(what, vtkAlgorithm) else what
     data = what
     if isinstance(port, vtkAlgorithmOutput):
@@ -107,11 +112,12 @@ def _mapper(what: Any) -> Union[vtkNURBSMapper, vtkCompositePolyDataMapper]:
     if not isinstance(data, vtkDataObject):
         raise TypeError(f"a {type(what).__name__} is no filter, output port, data object or mapper")
     leaves = blocks(data)
-    mapper: Union[vtkNURBSMapper, vtkCompositePolyDataMapper]
     if models(data):
         mapper = vtkNURBSMapper()
+    elif isinstance(data, vtkPolyData):
+        mapper = vtkPolyDataMapper()
     elif any(isinstance(leaf, vtkPolyData) for leaf in leaves):
-        mapper = vtkCompositePolyDataMapper()
+        mapper = CompositeMapper()
     else:
         raise TypeError("there is no NURBS model and no vtkPolyData in it; "
                         "make an actor of it and give that")  # fmt: skip
