@@ -5,8 +5,6 @@
 
 import sys
 
-from vtkmodules.vtkCommonCore import vtkLookupTable
-
 import vtknurbs
 
 file = (sys.argv[1:] or ["/usr/share/opencascade/data/step/linkrods.step"])[0]
@@ -26,15 +24,5 @@ print(regions.GetNumberOfVisibleLines(), "of", regions.GetNumberOfLines(), "line
       writer.GetNumberOfVisiblePaths(), "paths of", writer.GetNumberOfCurves(), "curves and",
       writer.GetNumberOfStraightLines(), "straight lines, with the hidden ones")  # fmt: skip
 
-black = vtkLookupTable()  # of Visibility: 0 hidden, 1 visible
-black.SetNumberOfTableValues(2)
-black.SetTableValue(0, 0.75, 0.75, 0.75)
-black.SetTableValue(1, 0, 0, 0)
-actor = vtknurbs.make_actor(regions.GetOutputPort(1))
-actor.GetMapper().ScalarVisibilityOn()
-actor.GetMapper().SetScalarModeToUseCellFieldData()
-actor.GetMapper().SelectColorArray("Visibility")
-actor.GetMapper().SetColorModeToMapScalars()
-actor.GetMapper().SetLookupTable(black)
-actor.GetProperty().LightingOff()
-vtknurbs.render(actor, file="drawing.png", size=(480, 300), view=(0, 0, 1), up=(0, 1, 0), zoom=1.4)
+vtknurbs.render(regions.GetOutputPort(1), file="drawing.png", size=(480, 300),
+                view=(0, 0, 1), up=(0, 1, 0), zoom=1.4)  # fmt: skip

@@ -186,6 +186,13 @@ def check_free_form(output):
     assert sum(anew for *_, anew in frames) == 0, "the mesh was not followed"
 
 
+def check_overview(output):
+    triangles, visible = figures("# triangles, # faces visible", output)[0]
+    assert triangles > 1000 and 0 < visible < 37
+    for column in np.split(np.asarray(Image.open("overview.png").convert("L")), 4, 1):
+        assert 0.01 < np.mean(column < 250) < 0.6
+
+
 def check_parallel(output):
     runs = figures("# thread(s): # triangles in # s", output)
     assert [threads for threads, *_ in runs] == [1, 2] and runs[0][1] == runs[1][1] > 2 * 2000

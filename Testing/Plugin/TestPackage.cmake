@@ -1,7 +1,8 @@
-# Installs BUILD into a scratch folder, builds the project in Package/ against it, and runs that.
+# Installs BUILD into a scratch folder, moves that elsewhere, and uses it there: a C++ project (Package/) and the guide's
+# (Documentation/Guide/Cpp.md), a Python script, the vtknurbs tool, the ParaView plugin.
 set(scratch "${BUILD}/Testing/Output/Package")
 file(REMOVE_RECURSE "${scratch}")
-set(prefix "${scratch}/prefix")
+set(prefix "${scratch}/moved")
 
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -11,7 +12,9 @@ function (run)
   endif ()
 endfunction ()
 
-run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${scratch}/prefix")
+file(RENAME "${scratch}/prefix" "${prefix}")
+
 # The build tree must not be what is found: no path to it may be in what was installed.
 file(GLOB_RECURSE configs "${prefix}/*.cmake")
 foreach (config IN LISTS configs)
@@ -22,22 +25,59 @@ foreach (config IN LISTS configs)
     message(FATAL_ERROR "${config} points into the build or source tree")
   endif ()
 endforeach ()
-run("${CMAKE_COMMAND}" -G Ninja -S "${CMAKE_CURRENT_LIST_DIR}/Package" -B "${scratch}/build"
-  "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER=${COMPILER}")
-run("${CMAKE_COMMAND}" --build "${scratch}/build")
-if (PYTHON)
-  # A Python program that has nothing of the build tree.
-  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PYTHON}"
-    "${CMAKE_CURRENT_LIST_DIR}/TestPythonArrays.py")
+file(GLOB_RECURSE binaries "${prefix}/bin/*" "${prefix}/lib*.so*")
+foreach (binary IN LISTS binaries)
+  file(STRINGS "${binary}" paths LIMIT_COUNT 1 REGEX "${BUILD}/lib")
+  if (paths)
+    message(FATAL_ERROR "${binary} looks for libraries in the build tree: ${paths}")
+  endif ()
+endforeach ()
+
+# configure_and_build(<folder of the project>)
+function (configure_and_build project)
+  run("${CMAKE_COMMAND}" -G Ninja -S "${project}" -B "${project}/build"
+    "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER=${COMPILER}")
+  run("${CMAKE_COMMAND}" --build "${project}/build")
+endfunction ()
+
+set(model /usr/share/opencascade/data/step/linkrods.step)
+file(COPY "${CMAKE_CURRENT_LIST_DIR}/Package/" DESTINATION "${scratch}/consumer")
+configure_and_build("${scratch}/consumer")
+foreach (program kernel pipeline)
+  if (EXISTS "${scratch}/consumer/build/${program}")
+    run("${scratch}/consumer/build/${program}")
+  endif ()
+endforeach ()
+
+if (EXISTS "${prefix}/bin/vtknurbs")
+  file(READ "${SOURCE}/Documentation/Guide/Cpp.md" page)
+  foreach (file "cpp;picture.cxx" "cmake;CMakeLists.txt")
+    list(GET file 0 language)
+    list(GET file 1 name)
+    string(FIND "${page}" "```${language}\n" begin)
+    string(SUBSTRING "${page}" ${begin} -1 text)
+    string(REGEX REPLACE "^```[a-z]*\n" "" text "${text}")
+    string(FIND "${text}" "```" end)
+    string(SUBSTRING "${text}" 0 ${end} text)
+    file(WRITE "${scratch}/guide/${name}" "${text}")
+  endforeach ()
+  configure_and_build("${scratch}/guide")
+  run("${scratch}/guide/build/picture" "${model}" "${scratch}/picture.png")
+  file(SIZE "${scratch}/picture.png" size)
+  if (size LESS 5000)
+    message(FATAL_ERROR "the guide's program drew nothing: ${size} bytes")
+  endif ()
+  run("${prefix}/bin/vtknurbs" render "${model}" -o "${scratch}/tool.png")
+endif ()
+
+set(python "PYTHONPATH=${prefix}/lib/python3/dist-packages")
+if (EXISTS "${prefix}/lib/python3/dist-packages/vtknurbs" AND PYTHON)
+  run("${CMAKE_COMMAND}" -E env "${python}" "${PYTHON}" "${scratch}/consumer/pipeline.py" "${prefix}" "${model}")
+  run("${CMAKE_COMMAND}" -E env "${python}" "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/TestPythonArrays.py")
 endif ()
 if (PVPYTHON)
   # ParaView's plugin where it was installed, with the libraries and the Python package beside it.
   file(GLOB plugin "${prefix}/*/paraview-*/plugins/NURBS/NURBS.so")
-  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PVPYTHON}"
+  run("${CMAKE_COMMAND}" -E env "${python}" "${PVPYTHON}"
     "${CMAKE_CURRENT_LIST_DIR}/ParaView/TestDefaults.py" "${plugin}" "${scratch}")
 endif ()
-foreach (program kernel pipeline)
-  if (EXISTS "${scratch}/build/${program}")
-    run("${scratch}/build/${program}")
-  endif ()
-endforeach ()

@@ -6,6 +6,7 @@ from typing import Any, Optional, Sequence, Tuple
 import numpy as np
 from vtkmodules import vtkRenderingOpenGL2  # noqa: F401, makes vtkRenderer draw with OpenGL
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -37,12 +38,19 @@ def make_actor(what: Any, color: Vector = (0.8, 0.82, 0.86)) -> vtkActor:
     """An actor of a filter, an output port, data or a mapper.
 
     Models are drawn exactly, by vtkNURBSMapper; polygons and lines by VTK's own mappers.
-    The faces' own colours show where there are any (a cell array Color), else `color`, 0 to 1.
+    The faces' own colours show where there are any (a cell array Color), else `color`, 0 to 1. Drawings
+    (lines with Visibility, as vtkNURBSVisibleRegions gives them) are black where visible, else grey.
     """
-    mapper = what if isinstance(what, vtkMapper) else _mapper(what)
     actor = vtkActor()
-    actor.SetMapper(mapper)
     actor.GetProperty().SetColor(*color)
+    if isinstance(what, vtkMapper):
+        actor.SetMapper(what)
+        return actor
+    actor.SetMapper(_mapper(what))
+    if actor.GetMapper().GetArrayName() == "Visibility":
+        actor.GetProperty().LightingOff()
+        actor.GetProperty().RenderLinesAsTubesOn()  # without gaps where segments meet
+        actor.GetProperty().SetLineWidth(1.8)
     return actor
 
 
@@ -125,10 +133,22 @@ def _mapper(what: Any) -> vtkMapper:
         mapper.SetInputConnection(port)
     else:
         mapper.SetInputDataObject(data)
-    color = vtkNURBSModel.ColorName()
-    if any(leaf.GetCellData().HasArray(color) for leaf in leaves):
-        mapper.SetScalarModeToUseCellFieldData()
-        mapper.SelectColorArray(color)
+    mapper.SetScalarModeToUseCellFieldData()
+    if any(leaf.GetCellData().HasArray("Visibility") for leaf in leaves):
+        mapper.SelectColorArray("Visibility")
+        mapper.SetColorModeToMapScalars()
+        mapper.SetLookupTable(_grey_and_black())
+    elif any(leaf.GetCellData().HasArray(vtkNURBSModel.ColorName()) for leaf in leaves):
+        mapper.SelectColorArray(vtkNURBSModel.ColorName())
     else:
         mapper.ScalarVisibilityOff()
     return mapper
+
+
+def _grey_and_black() -> vtkLookupTable:
+    """Colours of 0 and 1."""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(2)
+    table.SetTableValue(0, 0.75, 0.75, 0.75)
+    table.SetTableValue(1, 0, 0, 0)
+    return table
