@@ -16,6 +16,7 @@ camera = window.GetRenderers().GetFirstRenderer().GetActiveCamera()
 overlay = vtkRenderer()  # so that no line is hidden by the surface that it lies on
 overlay.SetActiveCamera(camera)
 overlay.SetLayer(1)
+overlay.UseFXAAOn()
 window.SetNumberOfLayers(2)
 window.AddRenderer(overlay)
 for color, silhouettes in (((0.1, 0.2, 0.5), False), ((0.8, 0.1, 0.1), True)):
