@@ -165,6 +165,12 @@ def check_numpy_surfaces(output):
     assert "sheet (3, 3) (9, 7, 3) 2 loops" in output
 
 
+def check_control_net(output):
+    lines, points = figures("# lines of the net; # control points", output)[0]
+    sizes = [(nu, points / nu) for nu in range(2, int(points)) if points % nu == 0]
+    assert lines in [nu + nv for nu, nv in sizes], (lines, points)  # a line a row and a column
+
+
 def check_control_points(output):
     ((point, *moved),) = figures("moved # by (#, #, #)", output)
     assert point == 69 and np.allclose(moved, (0.8205, -0.2269, -1.0691), atol=2e-3), moved
