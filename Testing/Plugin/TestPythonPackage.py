@@ -67,6 +67,10 @@ class Classes(unittest.TestCase):
     def test_numpy_is_not_needed_for_pipelines(self):
         code = "import sys, vtknurbs; assert 'numpy' not in sys.modules; vtknurbs.make_model"
         self.assertEqual(python(code, PACKAGE.parent), (0, ""))
+        code = "import sys; sys.modules['numpy'] = None; import vtknurbs; vtknurbs.make_model"
+        status, output = python(code, PACKAGE.parent)
+        self.assertNotEqual(status, 0)
+        self.assertRegex(output, "ImportError: vtknurbs.make_model needs numpy .*python3-numpy")
 
 
 @unittest.skipUnless(importlib.util.find_spec("vtkmodules.generate_pyi"), "VTK before 9.2 makes no hints")
