@@ -56,9 +56,9 @@ public:
 
   /**
    * Points and, up to `order` (0 to 2), partial derivatives at parameters (u, v) of the face's own
-   * domain; `parameters` has 2 components. `results` gets as many tuples of 3, 9 or 18 components: S,
-   * Su, Sv, Suu, Suv, Svv, 3 each. At a knot derivatives are those after it (at the domain's end:
-   * before it). Parameters outside the domain extrapolate the first or last span.
+   * domain; `parameters` has 2 components. `results` gets as many tuples of 3, 9 or 18 components:
+   * S, Su, Sv, Suu, Suv, Svv, 3 each. At a knot derivatives are those after it (at the domain's
+   * end: before it). Parameters outside the domain extrapolate the first or last span.
    */
   bool Evaluate(vtkIdType cell, vtkDataArray* parameters, int order, vtkDoubleArray* results);
 
@@ -74,9 +74,10 @@ public:
 
   ///@{
   /**
-   * Of a face: its domain as u0, u1, v0, v1; its degrees and its number of control points in u and v;
-   * the knots of direction 0 (u) or 1 (v); control points (3 components, u fastest) and weights (all 1
-   * if it is polynomial; IsRational tells whether some differ); whether the outside is against Su x Sv.
+   * Of a face: its domain as u0, u1, v0, v1; its degrees and its number of control points in u and
+   * v; the knots of direction 0 (u) or 1 (v); control points (3 components, u fastest) and weights
+   * (all 1 if it is polynomial; IsRational tells whether some differ); whether the outside is
+   * against Su x Sv.
    */
   bool GetDomain(vtkIdType cell, double domain[4]);
   bool GetDegree(vtkIdType cell, int degree[2]);
@@ -91,9 +92,9 @@ public:
   ///@{
   /**
    * Its trimming loops and their curves: points (u, v, weight) and knots (as many, and degree + 1
-   * more), the edge that the curve is the image of (an index that faces have in common where they share
-   * it; -1: none), and whether the loop runs from the curve's end to its start. Numbers are -1 after an
-   * error.
+   * more), the edge that the curve is the image of (an index that faces have in common where they
+   * share it; -1: none), and whether the loop runs from the curve's end to its start. Numbers are
+   * -1 after an error.
    */
   vtkIdType GetNumberOfLoops(vtkIdType cell);
   vtkIdType GetNumberOfTrimCurves(vtkIdType cell, vtkIdType loop);

@@ -38,9 +38,9 @@ public:
 
   /**
    * Adds a surface. `knotsU` and `knotsV` are whole knot vectors (1 component); a direction has as
-   * many control points as knots, less degree + 1. `points` (3 components, Cartesian) has u fastest;
-   * `weights` (1 component, > 0) may be null: all 1. Degrees are 1 to 25. Returns the index of the
-   * face, which is its cell in the model; -1 after an error.
+   * many control points as knots, less degree + 1. `points` (3 components, Cartesian) has u
+   * fastest; `weights` (1 component, > 0) may be null: all 1. Degrees are 1 to 25. Returns the
+   * index of the face, which is its cell in the model; -1 after an error.
    */
   vtkIdType AddFace(int degreeU, int degreeV, vtkDataArray* knotsU, vtkDataArray* knotsV,
     vtkDataArray* points, vtkDataArray* weights);
@@ -58,26 +58,27 @@ public:
   ///@}
 
   /**
-   * Starts a trimming loop of the face added last; the face's material lies on its left in the (u, v)
-   * plane. A face without loops has the natural boundary. False after an error.
+   * Starts a trimming loop of the face added last; the face's material lies on its left in the (u,
+   * v) plane. A face without loops has the natural boundary. False after an error.
    */
   bool BeginLoop();
 
   /**
    * Appends a curve to the loop begun last. `points` has 2 components (u, v) or 3 (u, v, weight);
-   * `knots` as many values as points, and degree + 1 more. `edge`: a number of the caller's choice, at
-   * least 0, that two curves have in common where their faces share an edge (they must then be the
-   * images of the same curve in space, parameter by parameter); -1: none. `reversed`: the loop runs
-   * from the curve's end to its start. False after an error.
+   * `knots` as many values as points, and degree + 1 more. `edge`: a number of the caller's choice,
+   * at least 0, that two curves have in common where their faces share an edge (they must then be
+   * the images of the same curve in space, parameter by parameter); -1: none. `reversed`: the loop
+   * runs from the curve's end to its start. False after an error.
    */
   bool AddTrimCurve(
     int degree, vtkDataArray* knots, vtkDataArray* points, vtkIdType edge, bool reversed);
 
   ///@{
   /**
-   * Whether sides of untrimmed faces that are the same in space, bit for bit (control points, weights
-   * and knots, forwards or backwards), become one edge that the faces share, so that their meshes have
-   * no gap there; such faces get a loop of their four sides. Concerns clamped knots only. Default on.
+   * Whether sides of untrimmed faces that are the same in space, bit for bit (control points,
+   * weights and knots, forwards or backwards), become one edge that the faces share, so that their
+   * meshes have no gap there; such faces get a loop of their four sides. Concerns clamped knots
+   * only. Default on.
    */
   vtkSetMacro(JoinSides, bool);
   vtkGetMacro(JoinSides, bool);

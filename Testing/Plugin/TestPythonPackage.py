@@ -243,8 +243,9 @@ class PyVista(unittest.TestCase):
     def test_models_and_meshes_wrap(self):
         import pyvista
 
-        model = pyvista.wrap(vtknurbs.make_model(vtknurbs.Surface(np.eye(4)[:, :, None] * [0, 0, 1.0],
-                                                                  degrees=(3, 3))))  # fmt: skip
+        x, y = np.meshgrid(np.arange(4.0), np.arange(4.0), indexing="ij")
+        surface = vtknurbs.Surface(np.stack([x, y, x * y], -1), degrees=(3, 3))
+        model = pyvista.wrap(vtknurbs.make_model(surface))
         self.assertEqual(model.n_cells, 1)
         tessellator = vtknurbs.vtkNURBSTessellator()
         tessellator.SetInputData(model)
