@@ -100,6 +100,13 @@ bool vtkNURBSCADWriter::Fail(unsigned long code, const std::string& message)
   return false;
 }
 
+// Write() tells by the error code that there is no file.
+bool vtkNURBSCADWriter::Aborted()
+{
+  this->SetErrorCode(vtkErrorCode::UserError);
+  return false;
+}
+
 void vtkNURBSCADWriter::ClearFigures()
 {
   this->NumberOfFaces = this->NumberOfFailedFaces = this->NumberOfInvalidFaces = 0;
@@ -219,7 +226,7 @@ bool vtkNURBSCADWriter::Build(Work& work)
   }
   if (abort)
   {
-    return false;
+    return this->Aborted();
   }
   this->NumberOfFailedFaces = static_cast<vtkIdType>(failures.size());
   const bool some = std::any_of(work.Shapes.begin(), work.Shapes.end(),
@@ -276,6 +283,7 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
 bool vtkNURBSCADWriter::Save(Work& work)
 {
   const std::string stem = std::filesystem::u8path(this->FileName).stem().u8string();
+  work.Content.Name = stem;
   std::vector<std::int64_t> parts(work.Blocks.size(), -1);
   for (std::size_t i = 0; i < work.Blocks.size(); ++i)
   {
@@ -299,7 +307,7 @@ bool vtkNURBSCADWriter::Save(Work& work)
   }
   catch (const std::exception& problem)
   {
-    return this->GetAbortExecute() ? false
+    return this->GetAbortExecute() ? this->Aborted()
                                    : this->Fail(vtkErrorCode::CannotOpenFileError, problem.what());
   }
   return true;
@@ -324,11 +332,19 @@ void vtkNURBSCADWriter::WriteData()
     this->Fail(vtkErrorCode::UserError, "there is no face to write");
     return;
   }
-  if (!this->FindUnits(work) || !this->Build(work))
+  try
   {
+    if (!this->FindUnits(work) || !this->Build(work))
+    {
+      return;
+    }
+    this->CheckShapes(work);
+  }
+  catch (const std::exception& problem)
+  {
+    this->Fail(vtkErrorCode::UserError, problem.what());
     return;
   }
-  this->CheckShapes(work);
   if (!this->Save(work))
   {
     this->ClearFigures();

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 
 TEST(CADWriterFiles, UnitsAreHonoured)
@@ -147,7 +148,7 @@ TEST(CADWriterFiles, ColoursComeBackFromIGES)
   }
 }
 
-TEST(CADWriterFiles, ProgressGrowsAndAbortLeavesNoFile)
+TEST(CADWriterFiles, ProgressGrows)
 {
   vtkNew<vtkNURBSCADWriter> writer;
   std::vector<double> seen;
@@ -162,21 +163,48 @@ TEST(CADWriterFiles, ProgressGrowsAndAbortLeavesNoFile)
   EXPECT_GT(seen.size(), 5u);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
+}
 
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*) {
-    static_cast<vtkNURBSCADWriter*>(caller)->SetAbortExecute(1);
-  });
-  writer->AddObserver(vtkCommand::ProgressEvent, stop);
-  vtkNew<MessageKeeper> keeper;
-  writer->AddObserver(vtkCommand::ErrorEvent, keeper);
-  const std::string path = OutputPath("aborted.step");
-  std::filesystem::remove(path);
-  writer->SetFileName(path.c_str());
-  writer->Write();
-  EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_EQ(keeper->Text, "");
-  EXPECT_EQ(writer->GetNumberOfFaces(), 0);
+TEST(CADWriterFiles, AbortLeavesWhatWasThere)
+{
+  const auto model = ReadOne("/usr/share/opencascade/data/step/screw.step");
+  const std::string folder = OutputPath("aborted");
+  const std::string path = folder + "/model.step";
+  for (const double part : { 0.0, 0.7 }) // While shapes are built, and while the file is written.
+  {
+    for (const bool exists : { false, true })
+    {
+      std::filesystem::remove_all(folder);
+      std::filesystem::create_directory(folder);
+      if (exists)
+      {
+        std::ofstream(path) << "precious";
+      }
+      vtkNew<vtkNURBSCADWriter> writer;
+      double until = part;
+      vtkNew<vtkCallbackCommand> stop;
+      stop->SetClientData(&until);
+      stop->SetCallback([](vtkObject* caller, unsigned long, void* client, void* amount) {
+        if (*static_cast<const double*>(amount) >= *static_cast<const double*>(client))
+        {
+          static_cast<vtkNURBSCADWriter*>(caller)->SetAbortExecute(1);
+        }
+      });
+      writer->AddObserver(vtkCommand::ProgressEvent, stop);
+      vtkNew<MessageKeeper> keeper;
+      writer->AddObserver(vtkCommand::ErrorEvent, keeper);
+      writer->SetInputDataObject(model);
+      writer->SetFileName(path.c_str());
+      EXPECT_FALSE(writer->Write());
+      EXPECT_EQ(keeper->Text, "");
+      EXPECT_EQ(writer->GetNumberOfFaces(), 0);
+      std::string content;
+      std::getline(std::ifstream(path), content);
+      EXPECT_EQ(content, exists ? "precious" : "");
+      const auto files = std::filesystem::directory_iterator(folder);
+      EXPECT_EQ(std::distance(begin(files), end(files)), exists ? 1 : 0);
+    }
+  }
 }
 
 TEST(BadCADWriting, EachGivesOneClearError)
