@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 
 TEST(CADWriterFiles, UnitsAreHonoured)
 {
