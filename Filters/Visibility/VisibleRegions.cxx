@@ -392,8 +392,8 @@ bool RegionMaker::DrawLines()
 VisibleRegions RegionMaker::Run()
 {
   this->CheckPrecision();
-  if (!this->MakeLines() || !this->MakeMap() || !this->Report(MapDone) || !this->FillFaces() ||
-    !this->DrawLines())
+  if (!this->MakeLines() || !this->MakeMap() || !this->Report(MapDone) ||
+    (this->Options.Regions && !this->FillFaces()) || !this->DrawLines())
   {
     this->Out = VisibleRegions();
     this->Out.Aborted = true;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Line drawings without hidden lines, of every file from three directions: OpenCASCADE's exact remover
 (HLRBRep_Algo), its polygonal one (HLRBRep_PolyAlgo, meshing at the deflection counted), and ours
-(vtkNURBSVisibleRegions, regions counted), each on one thread and in processor time. All lines are
+(vtkNURBSVisibleRegions, the drawing only), each on one thread and in processor time. All lines are
 judged alike, by rays against the exact surfaces (LineTruth.h): lengths in the image, over the model's
 diagonal."""
 
