@@ -24,6 +24,40 @@ constexpr double NearerShare = 0.6;
 // What is in front of a line by less is its own surface, in pixels.
 constexpr double BareDepth = 8.0;
 
+// Surfaces are planar whose control points are as near to a plane, as a share of their size.
+constexpr double FlatShare = 1e-10;
+
+bool IsPlanar(const SurfaceView& surface)
+{
+  const std::int64_t count = surface.Size();
+  if (count == 0)
+  {
+    return false;
+  }
+  const Vec3 origin = surface.Point(0);
+  Vec3 along = Vec3::Zero();
+  for (std::int64_t k = 1; k < count; ++k)
+  {
+    const Vec3 way = surface.Point(k) - origin;
+    along = way.squaredNorm() > along.squaredNorm() ? way : along;
+  }
+  Vec3 normal = Vec3::Zero();
+  for (std::int64_t k = 1; k < count; ++k)
+  {
+    const Vec3 cross = along.cross(surface.Point(k) - origin);
+    normal = cross.squaredNorm() > normal.squaredNorm() ? cross : normal;
+  }
+  const double most = FlatShare * along.norm() * normal.norm();
+  for (std::int64_t k = 1; k < count && most > 0.0; ++k)
+  {
+    if (std::abs(normal.dot(surface.Point(k) - origin)) > most)
+    {
+      return false;
+    }
+  }
+  return most > 0.0;
+}
+
 // The segments of all parts.
 void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
   std::vector<GridPoint>& points, std::vector<GridSegment>& segments)
@@ -442,8 +476,13 @@ public:
     , Map(map)
     , Walk(lines.Lines, map)
     , Neighbours(lines.Whole.Data.Faces.size())
+    , Planar(lines.Whole.Data.Faces.size())
     , Size((lines.Box().diagonal()).norm())
   {
+    for (std::size_t f = 0; f < this->Planar.size(); ++f)
+    {
+      this->Planar[f] = IsPlanar(lines.Whole.Data.Faces[f].Geometry);
+    }
     for (const std::vector<EdgeUse>& uses : lines.Uses)
     {
       for (const EdgeUse& use : uses)
@@ -461,6 +500,7 @@ public:
 private:
   Vec3 Middle(const ViewLine& line, const LineStep& step) const;
   bool Shows(const ViewLine& line, const LineStep& step, int side) const;
+  bool IsNeighbour(const ViewLine& line, std::int64_t face) const;
   bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
 
   const ViewLines& Lines;
@@ -469,6 +509,7 @@ private:
   FrontMap& Map;
   LineWalk Walk;
   std::vector<std::set<std::int64_t>> Neighbours; // Of faces, by their edges; and themselves.
+  std::vector<char> Planar;                       // One a face.
   double Size;                                    // Of the image.
 };
 
@@ -480,6 +521,11 @@ Vec3 ShownLines::Middle(const ViewLine& line, const LineStep& step) const
 
 bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
 {
+  const FrontHit& front = this->Map.Front(step.Edge, side);
+  if (!line.IsIntersection() && this->Planar[front.Face])
+  {
+    return true; // A plane has one sheet in the image.
+  }
   const Vec3 point = this->Middle(line, step);
   if (line.IsIntersection())
   {
@@ -489,7 +535,6 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
       this->Image.Depth(point) - this->Image.Depth(there.Point) <= this->Map.Pixel;
   }
   const Vec2 beside = this->Map.Beside(step.Edge, side);
-  const FrontHit& front = this->Map.Front(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
   if (hit.Face != front.Face)
   {
@@ -503,10 +548,28 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
     NearerShare * (hit.Point - point).norm();
 }
 
+// True if the face has an edge in common with one that the line is of.
+bool ShownLines::IsNeighbour(const ViewLine& line, std::int64_t face) const
+{
+  if (!line.IsEdge())
+  {
+    return this->Neighbours[line.Face].count(face) > 0;
+  }
+  const std::vector<EdgeUse>& uses = this->Lines.Uses[line.Edge];
+  return std::any_of(uses.begin(), uses.end(),
+    [&](const EdgeUse& use) { return this->Neighbours[use.Face].count(face) > 0; });
+}
+
 // A face that turns away may be narrower than a pixel there, so that a neighbour's cell begins at its
 // silhouette. True if that is so, and nothing is in front of the line itself.
 bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) const
 {
+  // A cell wide enough to be trusted has one front: most lines are hidden by what is far from them.
+  const std::int32_t cell = this->Map.Cell(step.Edge, side);
+  if (!this->Map.IsSliver(cell) && !this->IsNeighbour(line, this->Map.Cells[cell].Face))
+  {
+    return false;
+  }
   const Vec3 point = this->Middle(line, step);
   const FrontHit beside = LookAt(this->Caster, this->Image, this->Map.Beside(step.Edge, side));
   // Of a surface that turns away with a radius up to the image's size.
@@ -516,13 +579,7 @@ bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) co
   {
     return false;
   }
-  bool isNeighbour = this->Neighbours[line.Face].count(beside.Face) > 0;
-  for (std::size_t k = 0; line.IsEdge() && k < this->Lines.Uses[line.Edge].size(); ++k)
-  {
-    isNeighbour =
-      isNeighbour || this->Neighbours[this->Lines.Uses[line.Edge][k].Face].count(beside.Face) > 0;
-  }
-  if (!isNeighbour)
+  if (!this->IsNeighbour(line, beside.Face))
   {
     return false;
   }

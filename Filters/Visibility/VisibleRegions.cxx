@@ -225,8 +225,9 @@ bool RegionMaker::FillFaces()
         face.IsWhole = IsWhole(model, f, visible[f]);
         if (!visible[f].empty())
         {
-          face.Area = RegionArea(model, f, WholeRegion(model, f));
-          face.VisibleArea = face.IsWhole ? face.Area : RegionArea(model, f, visible[f]);
+          FaceArea area(model, f);
+          face.Area = area.Of(WholeRegion(model, f));
+          face.VisibleArea = face.IsWhole ? face.Area : area.Of(visible[f]);
         }
       }
     });
