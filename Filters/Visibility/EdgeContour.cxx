@@ -48,7 +48,8 @@ double CosineOfUse(
   const TrimCurve& curve = model.TrimCurves[use.Curve];
   const Vec2 on = Evaluate(curve.Geometry, TrimParameter(curve, domain, t));
   const Vec2 uv(face.Geometry.Domain(0).Clamp(on[0]), face.Geometry.Domain(1).Clamp(on[1]));
-  const Vec3 view = viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]));
+  const Vec3 view = viewer.Perspective ? viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]))
+                                       : viewer.Place; // Of any point.
   const double length = view.norm();
   const double cosine = length > 0.0 ? Normal(face.Geometry, uv[0], uv[1]).dot(view) / length : 0.0;
   return face.Reversed ? -cosine : cosine;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrontMap.h"
 
+#include "FeatureEdges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,40 +25,6 @@ constexpr int SamplesPerCell = 4;
 constexpr double NearerShare = 0.6;
 // What is in front of a line by less is its own surface, in pixels.
 constexpr double BareDepth = 8.0;
-
-// Surfaces are planar whose control points are as near to a plane, as a share of their size.
-constexpr double FlatShare = 1e-10;
-
-bool IsPlanar(const SurfaceView& surface)
-{
-  const std::int64_t count = surface.Size();
-  if (count == 0)
-  {
-    return false;
-  }
-  const Vec3 origin = surface.Point(0);
-  Vec3 along = Vec3::Zero();
-  for (std::int64_t k = 1; k < count; ++k)
-  {
-    const Vec3 way = surface.Point(k) - origin;
-    along = way.squaredNorm() > along.squaredNorm() ? way : along;
-  }
-  Vec3 normal = Vec3::Zero();
-  for (std::int64_t k = 1; k < count; ++k)
-  {
-    const Vec3 cross = along.cross(surface.Point(k) - origin);
-    normal = cross.squaredNorm() > normal.squaredNorm() ? cross : normal;
-  }
-  const double most = FlatShare * along.norm() * normal.norm();
-  for (std::int64_t k = 1; k < count && most > 0.0; ++k)
-  {
-    if (std::abs(normal.dot(surface.Point(k) - origin)) > most)
-    {
-      return false;
-    }
-  }
-  return most > 0.0;
-}
 
 // The segments of all parts.
 void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,

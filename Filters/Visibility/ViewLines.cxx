@@ -71,12 +71,13 @@ bool MayFaceViewer(const FaceSilhouette& face)
     0;
 }
 
-ViewLine MakeEdgeLine(const ViewLines& lines, std::int64_t edge, const SilhouetteOptions& options)
+ViewLine MakeEdgeLine(
+  const ViewLines& lines, std::int64_t edge, LineKind kind, const SilhouetteOptions& options)
 {
   const Model& model = lines.Whole.Data;
   const std::vector<EdgeUse>& uses = lines.Uses[edge];
   ViewLine line;
-  line.Kind = KindOfEdge(model, edge, uses, options.FeatureAngle);
+  line.Kind = kind;
   line.Face = uses.front().Face;
   line.Edge = edge;
   const Interval domain = model.TrimCurves[uses.front().Curve].Geometry.Domain();
@@ -125,6 +126,19 @@ struct EdgeEnd
   Vec3 Point;
 };
 
+// False if a curve is farther from a point than OnCurve, as its control points tell.
+template <typename PointAt>
+bool MayPass(int count, const PointAt& pointAt, const Vec2& uv, const Vec2& size)
+{
+  Box2 box;
+  for (int k = 0; k < count; ++k)
+  {
+    box.extend(pointAt(k));
+  }
+  const Vec2 reach = OnCurve * size;
+  return (uv - box.min() + reach).minCoeff() >= 0.0 && (box.max() - uv + reach).minCoeff() >= 0.0;
+}
+
 // Where a trim curve of the face passes (u, v): contours that end at the border of the domain do not
 // tell. Curve -1: none does.
 TrimCrossing FindCurve(const Model& model, const Face& face, const Vec2& uv)
@@ -137,8 +151,21 @@ TrimCrossing FindCurve(const Model& model, const Face& face, const Vec2& uv)
     const TrimLoop& loop = model.Loops[l];
     for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
     {
-      for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[c].Geometry))
+      const CurveView<2>& curve = model.TrimCurves[c].Geometry;
+      if (!MayPass(
+            curve.Count, [&](int k) { return curve.Point(k); }, uv, size))
       {
+        continue;
+      }
+      for (const BezierCurve<2>& piece : ToBezier(curve))
+      {
+        const auto pointOf = [&](int k) {
+          return Vec2(piece.Points[k].head<2>() / piece.Points[k][2]);
+        };
+        if (!MayPass(piece.Degree() + 1, pointOf, uv, size))
+        {
+          continue;
+        }
         const auto distance = [&](double t) {
           return (piece.Evaluate(t) - uv).cwiseQuotient(size).norm();
         };
@@ -384,7 +411,7 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
     {
       if (!out.Uses[e].empty() && !IsDegenerate(out.Whole.Data.Edges[e]))
       {
-        out.Lines[first + e] = MakeEdgeLine(out, e, options);
+        out.Lines[first + e] = MakeEdgeLine(out, e, silhouettes.EdgeKinds[e], options);
         InsertEnds(out, ends[e], out.Lines[first + e]);
         out.Lines[first + e].MeetsSilhouette = meets[e] != 0;
       }
