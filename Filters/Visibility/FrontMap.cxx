@@ -90,8 +90,8 @@ void CollectSources(FrontMap& map)
 }
 
 // Looks at each cell; the outer one is empty.
-void LookAtCells(const ImagePlane& image, const RayCaster& caster, const ParallelFor& parallel,
-  const std::function<bool(double)>& progress, FrontMap& map)
+void LookAtCells(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
+  const ParallelFor& parallel, const std::function<bool(double)>& progress, FrontMap& map)
 {
   const PlanarMap& plane = map.Plane;
   map.Cells.resize(plane.CellCount);
@@ -109,7 +109,7 @@ void LookAtCells(const ImagePlane& image, const RayCaster& caster, const Paralle
              k < plane.SampleStart[c + 1] && plane.Samples[k].Radius > SliverRadius; ++k)
         {
           const FrontHit other = LookAt(caster, image, map.ToImage(plane.Samples[k].Point));
-          if (other.Face != map.Cells[c].Face)
+          if (!lines.AreJoined(other.Face, map.Cells[c].Face))
           {
             others[c].push_back(other.Face);
           }
@@ -213,7 +213,7 @@ FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts
   const std::function<bool(double)>& progress)
 {
   FrontMap map = MakeLineMap(lines, parts, pixel, parallel);
-  LookAtCells(image, caster, parallel, progress, map);
+  LookAtCells(lines, image, caster, parallel, progress, map);
   return map;
 }
 
@@ -451,13 +451,19 @@ public:
     {
       this->Planar[f] = IsPlanar(lines.Whole.Data.Faces[f].Geometry);
     }
+    for (std::size_t f = 0; f < this->Planar.size(); ++f)
+    {
+      const auto lowest = std::size_t(lines.Cluster[f]);
+      this->Planar[f] = this->Planar[f] && lowest == f;
+      this->Planar[lowest] = this->Planar[lowest] && lowest == f;
+    }
     for (const std::vector<EdgeUse>& uses : lines.Uses)
     {
       for (const EdgeUse& use : uses)
       {
         for (const EdgeUse& other : uses)
         {
-          this->Neighbours[use.Face].insert(other.Face);
+          this->Neighbours[lines.Cluster[use.Face]].insert(lines.Cluster[other.Face]);
         }
       }
     }
@@ -468,6 +474,7 @@ public:
 private:
   Vec3 Middle(const ViewLine& line, const LineStep& step) const;
   bool Shows(const ViewLine& line, const LineStep& step, int side) const;
+  bool LeadsTo(const FrontHit& hit, const Vec3& point) const;
   bool IsNeighbour(const ViewLine& line, std::int64_t face) const;
   bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
 
@@ -476,8 +483,8 @@ private:
   const RayCaster& Caster;
   FrontMap& Map;
   LineWalk Walk;
-  std::vector<std::set<std::int64_t>> Neighbours; // Of faces, by their edges; and themselves.
-  std::vector<char> Planar;                       // One a face.
+  std::vector<std::set<std::int64_t>> Neighbours; // Of clusters, by their edges; and themselves.
+  std::vector<char> Planar;                       // One a face: it is, and alone in its cluster.
   double Size;                                    // Of the image.
 };
 
@@ -485,6 +492,17 @@ Vec3 ShownLines::Middle(const ViewLine& line, const LineStep& step) const
 {
   const LinePosition at = 0.5 * (this->Walk.Start(step) + this->Walk.End(step));
   return ExactPointAt(this->Lines, line, at).Point;
+}
+
+// True if the tangent plane leads to a point of another face of the cluster.
+bool ShownLines::LeadsTo(const FrontHit& hit, const Vec3& point) const
+{
+  const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
+  const Vec3 normal = Normal(surface, hit.UV[0], hit.UV[1]);
+  const Ray sight = this->Image.Sight(this->Image.Project(point));
+  const double t = normal.dot(hit.Point - sight.Origin) / normal.dot(sight.Direction);
+  const Vec3 reached = sight.Origin + t * sight.Direction;
+  return (reached - point).norm() <= NearerShare * (hit.Point - point).norm();
 }
 
 bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
@@ -504,9 +522,13 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
   }
   const Vec2 beside = this->Map.Beside(step.Edge, side);
   const FrontHit hit = LookAt(this->Caster, this->Image, beside);
-  if (hit.Face != front.Face)
+  if (!this->Lines.AreJoined(hit.Face, front.Face))
   {
     return true; // Too near to tell; what the cell says goes.
+  }
+  if (!UsesLine(this->Lines, line, hit.Face))
+  {
+    return this->LeadsTo(hit, point);
   }
   const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
   Vec2 uv = hit.UV;
@@ -516,16 +538,24 @@ bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) con
     NearerShare * (hit.Point - point).norm();
 }
 
-// True if the face has an edge in common with one that the line is of.
+// True if the face's cluster has an edge in common with one that the line is of.
 bool ShownLines::IsNeighbour(const ViewLine& line, std::int64_t face) const
 {
+  if (face < 0)
+  {
+    return false;
+  }
+  const std::vector<std::int64_t>& cluster = this->Lines.Cluster;
+  const auto touches = [&](std::int64_t own) {
+    return this->Neighbours[cluster[own]].count(cluster[face]) > 0;
+  };
   if (!line.IsEdge())
   {
-    return this->Neighbours[line.Face].count(face) > 0;
+    return touches(line.Face);
   }
   const std::vector<EdgeUse>& uses = this->Lines.Uses[line.Edge];
-  return std::any_of(uses.begin(), uses.end(),
-    [&](const EdgeUse& use) { return this->Neighbours[use.Face].count(face) > 0; });
+  return std::any_of(
+    uses.begin(), uses.end(), [&](const EdgeUse& use) { return touches(use.Face); });
 }
 
 // A face that turns away may be narrower than a pixel there, so that a neighbour's cell begins at its

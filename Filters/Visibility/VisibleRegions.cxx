@@ -130,8 +130,8 @@ bool RegionMaker::MakeLines()
   options.Parts = this->Options.Parts;
   options.Parallel = this->Options.Parallel;
   options.Progress = [&](double done) { return this->Report(LinesDone * done); };
-  this->Out.Lines =
-    MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options, this->Image);
+  this->Out.Lines = MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options,
+    this->Image, this->Options.Regions || this->Options.SmoothLines);
   return !this->Out.Lines.Aborted;
 }
 

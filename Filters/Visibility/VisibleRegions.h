@@ -24,6 +24,7 @@ struct VisibleRegionOptions
   double Precision = 1e-4;
   double FeatureAngle = 0.5235987755982988; ///< Of sharp edges, radians; 30 degrees.
   bool Regions = true;                      ///< Off: lines only, regions stay empty.
+  bool SmoothLines = true;                  ///< Off, without regions: smooth edges may be left out.
   bool HiddenRegions = false;               ///< Regions are what is not visible.
   bool BothSides = true;                    ///< Faces are visible from behind, too.
   /// Lines within clusters of faces that face the viewer are cut by clusters' borders only.

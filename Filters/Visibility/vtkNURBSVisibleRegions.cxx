@@ -73,6 +73,7 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   options.Precision = this->AbsolutePrecision(pool);
   options.FeatureAngle = vtkMath::RadiansFromDegrees(this->GetFeatureAngle());
   options.Regions = this->ComputeRegions;
+  options.SmoothLines = this->GetSmoothEdges();
   options.HiddenRegions = this->Region == HIDDEN_REGION;
   options.BothSides = this->BothSides;
   options.Clustering = this->Clustering;
