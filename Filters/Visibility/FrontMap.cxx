@@ -23,6 +23,9 @@ constexpr int SamplesPerCell = 4;
 // nearer to the line. On other sheets it leads nowhere near; at a silhouette, where the surface turns
 // away, to the square root of the chord's error.
 constexpr double NearerShare = 0.6;
+// Parts of a line between two crossings that are looked at beside a cluster, if the first look says that
+// it is hidden.
+constexpr std::size_t LooksOfHidden = 4;
 // What is in front of a line by less is its own surface, in pixels.
 constexpr double BareDepth = 8.0;
 
@@ -444,18 +447,19 @@ public:
     , Map(map)
     , Walk(lines.Lines, map)
     , Neighbours(lines.Whole.Data.Faces.size())
-    , Planar(lines.Whole.Data.Faces.size())
+    , Joined(lines.Whole.Data.Faces.size(), 0)
+    , Planar(lines.Whole.Data.Faces.size(), 0)
     , Size((lines.Box().diagonal()).norm())
   {
-    for (std::size_t f = 0; f < this->Planar.size(); ++f)
+    for (std::size_t f = 0; f < this->Joined.size(); ++f)
     {
-      this->Planar[f] = IsPlanar(lines.Whole.Data.Faces[f].Geometry);
+      const auto lowest = std::size_t(lines.Cluster[f]);
+      this->Joined[f] = this->Joined[f] || lowest != f;
+      this->Joined[lowest] = this->Joined[lowest] || lowest != f;
     }
     for (std::size_t f = 0; f < this->Planar.size(); ++f)
     {
-      const auto lowest = std::size_t(lines.Cluster[f]);
-      this->Planar[f] = this->Planar[f] && lowest == f;
-      this->Planar[lowest] = this->Planar[lowest] && lowest == f;
+      this->Planar[f] = !this->Joined[f] && IsPlanar(lines.Whole.Data.Faces[f].Geometry);
     }
     for (const std::vector<EdgeUse>& uses : lines.Uses)
     {
@@ -474,6 +478,8 @@ public:
 private:
   Vec3 Middle(const ViewLine& line, const LineStep& step) const;
   bool Shows(const ViewLine& line, const LineStep& step, int side) const;
+  bool FindOf(const ViewLine& line, const std::vector<LineStep>& steps, std::size_t first,
+    std::size_t last, int lineSide);
   bool LeadsTo(const FrontHit& hit, const Vec3& point) const;
   bool IsNeighbour(const ViewLine& line, std::int64_t face) const;
   bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
@@ -484,7 +490,8 @@ private:
   FrontMap& Map;
   LineWalk Walk;
   std::vector<std::set<std::int64_t>> Neighbours; // Of clusters, by their edges; and themselves.
-  std::vector<char> Planar;                       // One a face: it is, and alone in its cluster.
+  std::vector<char> Joined;                       // One a face: its cluster has more faces.
+  std::vector<char> Planar;                       // One a face: it is, and is not joined.
   double Size;                                    // Of the image.
 };
 
@@ -586,7 +593,30 @@ bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) co
     this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
 }
 
-// Between two crossings nothing changes: one look a side, where there is most room.
+// Looks at a part of a line on one side, where there is most room. False: it is hidden, or empty.
+bool ShownLines::FindOf(const ViewLine& line, const std::vector<LineStep>& steps, std::size_t first,
+  std::size_t last, int lineSide)
+{
+  if (first == last)
+  {
+    return false;
+  }
+  const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
+  const int side = this->Walk.Side(best, lineSide);
+  const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
+  const bool shows =
+    face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
+  const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
+  for (std::size_t k = first; k < last; ++k)
+  {
+    LineSource& source = this->Map.Sources[steps[k].Source];
+    source.Shows |= std::uint8_t((shows ? 1 : 0) << this->Walk.Side(steps[k], lineSide));
+    source.IsBare = source.IsBare || isBare;
+  }
+  return shows || isBare;
+}
+
+// Between two crossings nothing changes: one look a side.
 void ShownLines::Find(std::int64_t index)
 {
   const ViewLine& line = this->Lines.Lines[index];
@@ -598,17 +628,13 @@ void ShownLines::Find(std::int64_t index)
     const int sides = line.IsEdge() || line.IsIntersection() ? 2 : 1;
     for (int lineSide = 0; lineSide < sides; ++lineSide)
     {
-      const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
-      const int side = this->Walk.Side(best, lineSide);
-      const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
-      const bool shows =
-        face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
-      const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
-      for (std::size_t k = first; k < last; ++k)
+      // Beside a cluster no smooth edges cut the line; it is hidden only if it is everywhere.
+      const std::size_t count = last - first;
+      const bool isSeen = this->FindOf(line, steps, first, last, lineSide);
+      for (std::size_t k = 0; k < LooksOfHidden && !isSeen && this->Joined[line.Face]; ++k)
       {
-        LineSource& source = this->Map.Sources[steps[k].Source];
-        source.Shows |= std::uint8_t((shows ? 1 : 0) << this->Walk.Side(steps[k], lineSide));
-        source.IsBare = source.IsBare || isBare;
+        this->FindOf(line, steps, first + k * count / LooksOfHidden,
+          first + (k + 1) * count / LooksOfHidden, lineSide);
       }
     }
   }
