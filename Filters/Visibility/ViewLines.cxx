@@ -85,12 +85,6 @@ std::vector<char> FindShells(const ViewLines& lines)
   return out;
 }
 
-bool MayFaceViewer(const FaceSilhouette& face)
-{
-  return face.Patches[int(PatchVisibility::Visible)] + face.Patches[int(PatchVisibility::Partial)] >
-    0;
-}
-
 ViewLine MakeEdgeLine(
   const ViewLines& lines, std::int64_t edge, LineKind kind, const SilhouetteOptions& options)
 {
@@ -496,6 +490,12 @@ bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
 bool UsesLine(const ViewLines& lines, const ViewLine& line, std::int64_t face)
 {
   return AnyFace(lines, line, [&](std::int64_t own) { return own == face; });
+}
+
+bool MayFaceViewer(const FaceSilhouette& face)
+{
+  return face.Patches[int(PatchVisibility::Visible)] + face.Patches[int(PatchVisibility::Partial)] >
+    0;
 }
 
 Vec3 PointAt(const ViewLine& line, LinePosition at)
