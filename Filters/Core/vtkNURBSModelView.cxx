@@ -250,6 +250,23 @@ vtkNURBSModelView::vtkNURBSModelView(
   content.CheckCells(grid);
 }
 
+vtkNURBSModelView::vtkNURBSModelView()
+  : Content(new Internals)
+{}
+
+vtkNURBSModelView::Raw vtkNURBSModelView::GetRaw(vtkUnstructuredGrid* grid)
+{
+  Raw raw;
+  raw.Owner.reset(new vtkNURBSModelView);
+  Internals& content = *raw.Owner->Content;
+  content.Collect(grid);
+  raw.Arrays = content.Arrays;
+  vtkFieldData* field = grid->GetFieldData();
+  raw.EdgeIds = content.FindIntegers(field, names::EdgeGlobalId, 1, false);
+  raw.VertexIds = content.FindIntegers(field, names::VertexGlobalId, 1, false);
+  return raw;
+}
+
 vtkNURBSModelView::~vtkNURBSModelView() = default;
 
 const nurbs::Model& vtkNURBSModelView::GetModel() const

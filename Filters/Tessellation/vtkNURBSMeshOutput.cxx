@@ -9,6 +9,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -326,6 +327,7 @@ void vtkNURBSMeshOutput::FillLines(
   const vtkIdType count = vtkIdType(range.LastLine - range.FirstLine);
   auto edges = NewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);
   auto faces = NewArray<vtkTypeInt64Array>(vtkNURBSModel::FaceIdName(), 1, count);
+  auto owners = NewArray<vtkIdTypeArray>("Owners", 1, count);
   vtkNew<vtkIdTypeArray> starts;
   starts->SetNumberOfValues(count + 1);
   vtkIdType total = 0;
@@ -335,8 +337,8 @@ void vtkNURBSMeshOutput::FillLines(
     starts->SetValue(i, total);
     total += vtkIdType(line.Points.size());
     edges->SetValue(i, line.Edge < 0 ? -1 : line.Edge - firstEdge);
-    faces->SetValue(
-      i, vtkNURBSModel::GetFaceId(grid, vtkIdType(line.Face) - vtkIdType(range.FirstMesh)));
+    owners->SetValue(i, vtkIdType(line.Face) - vtkIdType(range.FirstMesh));
+    faces->SetValue(i, vtkNURBSModel::GetFaceId(grid, owners->GetValue(i)));
   }
   starts->SetValue(count, total);
   auto xyz = NewArray<vtkDoubleArray>("Points", 3, total);
@@ -363,4 +365,5 @@ void vtkNURBSMeshOutput::FillLines(
   lines->SetLines(cells);
   lines->GetCellData()->AddArray(edges);
   lines->GetCellData()->AddArray(faces);
+  vtkNURBSPieces::CopyOwners(grid, owners, lines->GetCellData());
 }

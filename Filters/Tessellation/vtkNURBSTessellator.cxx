@@ -11,6 +11,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -57,6 +58,11 @@ const char* ModeName(int mode)
 // What one Update works on.
 struct vtkNURBSTessellator::Work
 {
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
+  vtkDataObject* Input = nullptr; ///< Of all processes.
   vtkNURBSModelPool Pool;
   nurbs::TessellatorOptions Options;
   nurbs::TessellationResult Result;
@@ -96,7 +102,9 @@ int vtkNURBSTessellator::RequestDataObject(
 // The models of the input in one, with offset indices.
 bool vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
 {
-  const std::string problem = work.Pool.Collect(input);
+  std::string problem;
+  work.Input = work.Pieces.Gather(input, problem);
+  problem = problem.empty() ? work.Pool.Collect(work.Input) : problem;
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem);
@@ -177,13 +185,16 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
   return true;
 }
 
-void vtkNURBSTessellator::FillOutputs(
-  Work& work, vtkDataObject* input, vtkInformationVector* outputs)
+void vtkNURBSTessellator::FillOutputs(Work& work, vtkInformationVector* outputs)
 {
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(work.Input, vtkDataObject::GetData(outputs, port));
+  }
   const std::vector<vtkPolyData*> meshes =
-    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 0));
+    work.Pool.MakeLeaves(work.Input, vtkDataObject::GetData(outputs, 0));
   const std::vector<vtkPolyData*> lines =
-    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 1));
+    work.Pool.MakeLeaves(work.Input, vtkDataObject::GetData(outputs, 1));
   std::size_t line = 0;
   for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
   {
@@ -255,7 +266,7 @@ void vtkNURBSTessellator::Summarize(const Work& work)
 }
 
 int vtkNURBSTessellator::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->NumberOfTriangles = this->NumberOfPoints = this->NumberOfFaces = 0;
@@ -268,7 +279,7 @@ int vtkNURBSTessellator::RequestData(
     vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
   const vtkNURBSParallelScope parallel;
-  Work work;
+  Work work(request, outputs);
   if (!this->CollectModels(input, work) || !this->FillOptions(work) || !this->Tessellate(work))
   {
     this->SetErrorCode(vtkErrorCode::UserError);
@@ -281,7 +292,9 @@ int vtkNURBSTessellator::RequestData(
     return 1;
   }
   this->Summarize(work);
-  this->FillOutputs(work, input, outputs);
+  this->FillOutputs(work, outputs);
+  work.Pieces.Keep(vtkDataObject::GetData(outputs, 0));
+  work.Pieces.Keep(vtkDataObject::GetData(outputs, 1));
   this->OutputSeconds = Now() - start - this->TessellateSeconds;
   this->UpdateProgress(1.0);
   return 1;

@@ -304,7 +304,7 @@ private:
   bool CollectModels(vtkDataObject* input, Work& work);
   bool FillOptions(Work& work);
   bool Tessellate(Work& work);
-  void FillOutputs(Work& work, vtkDataObject* input, vtkInformationVector* outputs);
+  void FillOutputs(Work& work, vtkInformationVector* outputs);
   void Summarize(const Work& work);
 
   int ToleranceMode = RELATIVE;
