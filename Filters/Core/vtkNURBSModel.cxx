@@ -359,7 +359,7 @@ constexpr const char* StructureNames[] = { names::Knots, names::LoopCurveStart,
   names::TrimCurveReversed, names::TrimPoints, names::TrimKnots, names::EdgeDegree,
   names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
   names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints,
-  names::EdgeGlobalId, names::VertexGlobalId };
+  names::EdgeGlobalId, names::VertexGlobalId, names::WholeBounds };
 } // namespace
 
 std::vector<vtkAbstractArray*> vtkNURBSModel::GetStructureArrays(vtkUnstructuredGrid* grid)
@@ -424,6 +424,20 @@ void vtkNURBSModel::SetGlobalIds(
 {
   MoveArray<vtkTypeInt64Array>(grid->GetFieldData(), names::EdgeGlobalId, 1, edges);
   MoveArray<vtkTypeInt64Array>(grid->GetFieldData(), names::VertexGlobalId, 1, vertices);
+}
+
+void vtkNURBSModel::SetWholeBounds(vtkUnstructuredGrid* grid, const nurbs::Box3& box)
+{
+  vtkNew<vtkDoubleArray> bounds;
+  bounds->SetName(names::WholeBounds);
+  bounds->SetNumberOfComponents(6);
+  bounds->SetNumberOfTuples(1);
+  for (int k = 0; k < 3; ++k)
+  {
+    bounds->SetTypedComponent(0, 2 * k, box.min()[k]);
+    bounds->SetTypedComponent(0, 2 * k + 1, box.max()[k]);
+  }
+  grid->GetFieldData()->AddArray(bounds);
 }
 
 bool vtkNURBSModel::HasGlobalIds(vtkUnstructuredGrid* grid)

@@ -32,6 +32,8 @@
  * | field data | VertexPoints | 3 reals | positions where edges meet |
  * | field data | EdgeGlobalId, VertexGlobalId | 1 integer an edge or vertex | of a piece of a model
  *   only: its number in the whole model, by which pieces fit together |
+ * | field data | WholeBounds | 6 reals | of a piece with faces of its neighbours only: xmin, xmax, ... of
+ *   the control points of the whole model |
  * | field data | LengthUnit | string | unit of the points, for example "mm" |
  *
  * A face's material lies on the left of its loops in the (u, v) plane. Cells may be dropped or
@@ -44,6 +46,7 @@
 #ifndef vtkNURBSModel_h
 #define vtkNURBSModel_h
 
+#include "Types.h"
 #include "vtkNURBSFiltersCoreModule.h" // For export macro
 #include "vtkObject.h"
 
@@ -157,6 +160,11 @@ public:
    */
   static void SetGlobalIds(vtkUnstructuredGrid* grid, std::vector<std::int64_t>& edges,
     std::vector<std::int64_t>& vertices);
+
+  /**
+   * Stores the box of the control points of the model that the grid is a piece of.
+   */
+  static void SetWholeBounds(vtkUnstructuredGrid* grid, const nurbs::Box3& box);
 
   /**
    * True if the grid is a piece of a model that tells them.

@@ -45,6 +45,7 @@ inline constexpr char EdgeKnots[] = "EdgeKnots";
 inline constexpr char VertexPoints[] = "VertexPoints";
 inline constexpr char EdgeGlobalId[] = "EdgeGlobalId";
 inline constexpr char VertexGlobalId[] = "VertexGlobalId";
+inline constexpr char WholeBounds[] = "WholeBounds";
 inline constexpr char LengthUnit[] = "LengthUnit";
 inline constexpr char UnconvertedFaces[] = "UnconvertedFaces";
 // Cell data of outputs.

@@ -244,7 +244,15 @@ vtkNURBSModelView::vtkNURBSModelView(
   }
   Internals& content = *this->Content;
   content.Collect(grid);
-  content.Assembled = nurbs::AssembleModel(content.Arrays, options, SMPFor);
+  nurbs::AssembleOptions of = options;
+  const Internals::Reals bounds =
+    content.FindReals(grid->GetFieldData(), names::WholeBounds, 6, false);
+  if (bounds.size() == 6)
+  {
+    of.Around = nurbs::Box3(
+      nurbs::Vec3(bounds[0], bounds[2], bounds[4]), nurbs::Vec3(bounds[1], bounds[3], bounds[5]));
+  }
+  content.Assembled = nurbs::AssembleModel(content.Arrays, of, SMPFor);
   std::vector<ModelProblem>& problems = content.Assembled.Problems;
   problems.insert(problems.begin(), content.ArrayProblems.begin(), content.ArrayProblems.end());
   content.CheckCells(grid);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSPieces.h"
 
+#include "ModelChecks.h"
 #include "PieceBuilder.h"
+#include "PieceMessage.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSModelView.h"
@@ -21,7 +23,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
 #include <set>
 
 namespace
@@ -30,60 +32,8 @@ namespace
 /// A message of all processes together, as MPI counts in 32 bits.
 constexpr vtkIdType LargestExchange = vtkIdType(1) << 30;
 
-using Storage = nurbs::ModelBuilder::Storage;
-
-/// Appends values to a message, and takes them out again in the same order.
-class Writer
-{
-public:
-  explicit Writer(std::vector<char>& out)
-    : Out(out)
-  {}
-  template <typename T>
-  void Put(const T* values, std::size_t count)
-  {
-    const auto size = std::uint64_t(count);
-    const auto* bytes = reinterpret_cast<const char*>(&size);
-    this->Out.insert(this->Out.end(), bytes, bytes + sizeof size);
-    bytes = reinterpret_cast<const char*>(values);
-    this->Out.insert(this->Out.end(), bytes, bytes + count * sizeof(T));
-  }
-  template <typename C>
-  void Put(const C& values)
-  {
-    this->Put(values.data(), values.size());
-  }
-
-private:
-  std::vector<char>& Out;
-};
-
-class Reader
-{
-public:
-  explicit Reader(const std::vector<char>& in)
-    : In(in)
-  {}
-  bool IsDone() const { return this->At >= this->In.size(); }
-  template <typename C>
-  void Get(C& values)
-  {
-    std::uint64_t count = 0;
-    std::memcpy(&count, this->In.data() + this->At, sizeof count);
-    this->At += sizeof count;
-    values.resize(count);
-    const std::size_t bytes = count * sizeof(values[0]);
-    if (bytes > 0)
-    {
-      std::memcpy(&values[0], this->In.data() + this->At, bytes);
-    }
-    this->At += bytes;
-  }
-
-private:
-  const std::vector<char>& In;
-  std::size_t At = 0;
-};
+using nurbs::MessageReader;
+using nurbs::MessageWriter;
 
 /// Calls f(array) for all arrays of a model but Color and Name.
 template <typename StorageT, typename F>
@@ -103,7 +53,7 @@ struct Packet
 {
   std::int64_t Block = 0;
   int Rank = 0;
-  std::int64_t FirstCell = 0;
+  std::vector<std::int64_t> Cells; ///< Numbers of its faces there.
   std::string Unit;
   nurbs::PieceBuilder Piece;
   bool HasIds = false;
@@ -153,29 +103,56 @@ void vtkNURBSPieces::FindGrids(vtkDataObject* input, std::vector<Grid>& grids) c
   });
 }
 
-std::vector<char> vtkNURBSPieces::Pack(const std::string& problem) const
+vtkNURBSPieces::Raws vtkNURBSPieces::MakeRaws(const std::string& problem) const
 {
-  std::vector<char> message;
-  Writer out(message);
-  out.Put(problem);
+  Raws raws;
   for (const Grid& grid : this->Grids)
   {
-    if (!problem.empty())
+    if (problem.empty())
     {
-      break;
+      raws.push_back(vtkNURBSModelView::GetRaw(grid.Data));
     }
-    const vtkNURBSModelView::Raw raw = vtkNURBSModelView::GetRaw(grid.Data);
+  }
+  return raws;
+}
+
+vtkNURBSPieces::Choice vtkNURBSPieces::AllCells() const
+{
+  Choice cells;
+  for (const Grid& grid : this->Grids)
+  {
+    cells.emplace_back(grid.Data->GetNumberOfCells());
+    std::iota(cells.back().begin(), cells.back().end(), 0);
+  }
+  return cells;
+}
+
+std::vector<char> vtkNURBSPieces::Pack(
+  const Raws& raws, const Choice& cells, const std::string& problem) const
+{
+  std::vector<char> message;
+  MessageWriter out(message);
+  out.Put(problem);
+  for (std::size_t g = 0; g < raws.size(); ++g)
+  {
+    if (cells[g].empty())
+    {
+      continue;
+    }
+    const Grid& grid = this->Grids[g];
     nurbs::PieceBuilder piece;
-    piece.Begin(raw.Arrays, raw.EdgeIds, raw.VertexIds);
-    for (vtkIdType cell = 0; cell < grid.Data->GetNumberOfCells(); ++cell)
+    piece.Begin(raws[g].Arrays, raws[g].EdgeIds, raws[g].VertexIds);
+    std::vector<std::int64_t> numbers;
+    for (const vtkIdType cell : cells[g])
     {
       piece.AddFace(cell);
+      numbers.push_back(grid.FirstCell + cell);
     }
     piece.Finish();
-    const std::int64_t head[] = { grid.Block, grid.FirstCell,
-      vtkNURBSModel::HasGlobalIds(grid.Data) };
-    out.Put(head, 3);
+    const std::int64_t head[] = { grid.Block, vtkNURBSModel::HasGlobalIds(grid.Data) };
+    out.Put(head, 2);
     out.Put(vtkNURBSModel::GetLengthUnit(grid.Data));
+    out.Put(numbers);
     out.Put(piece.EdgeIds);
     out.Put(piece.VertexIds);
     ForArrays(piece.Model.Data, [&](const auto& array) { out.Put(array); });
@@ -188,7 +165,11 @@ void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::
   std::map<unsigned int, std::vector<Packet>> blocks;
   for (std::size_t rank = 0; rank < messages.size(); ++rank)
   {
-    Reader in(messages[rank]);
+    if (messages[rank].empty())
+    {
+      continue;
+    }
+    MessageReader in(messages[rank]);
     std::string said;
     in.Get(said);
     problem = problem.empty() ? said : problem;
@@ -198,10 +179,10 @@ void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::
       std::vector<std::int64_t> head;
       in.Get(head);
       packet.Block = head[0];
-      packet.FirstCell = head[1];
-      packet.HasIds = head[2] != 0;
+      packet.HasIds = head[1] != 0;
       packet.Rank = int(rank);
       in.Get(packet.Unit);
+      in.Get(packet.Cells);
       in.Get(packet.Piece.EdgeIds);
       in.Get(packet.Piece.VertexIds);
       ForArrays(packet.Piece.Model.Data, [&](auto& array) { in.Get(array); });
@@ -226,7 +207,7 @@ void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::
       {
         whole.AddFace(face);
         owners->InsertNextValue(packet.Rank);
-        cells->InsertNextValue(vtkIdType(packet.FirstCell + face));
+        cells->InsertNextValue(vtkIdType(packet.Cells[face]));
       }
     }
     whole.Finish();
@@ -235,13 +216,19 @@ void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::
     vtkNURBSModel::Store(whole.Model, grid);
     grid->GetCellData()->AddArray(owners);
     grid->GetCellData()->AddArray(cells);
+    const auto box = this->Boxes.find(block);
+    if (box != this->Boxes.end())
+    {
+      vtkNURBSModel::SetWholeBounds(grid, box->second);
+    }
     this->EdgeIds[block] = std::move(whole.EdgeIds);
+    this->VertexIds[block] = std::move(whole.VertexIds);
     packets.clear();
     vtkNURBSPieceTree::Set(this->Whole, block, 0, grid);
   }
 }
 
-vtkDataObject* vtkNURBSPieces::Gather(vtkDataObject* input, std::string& problem)
+vtkDataObject* vtkNURBSPieces::Gather(vtkDataObject* input, std::string& problem, Scope scope)
 {
   this->Input = input;
   this->FindGrids(input, this->Grids);
@@ -261,7 +248,22 @@ vtkDataObject* vtkNURBSPieces::Gather(vtkDataObject* input, std::string& problem
     return input;
   }
   this->Whole = vtkNURBSPieceTree::NewTree(input);
-  this->Merge(this->Exchange(this->Pack(own)), problem);
+  const Raws raws = this->MakeRaws(own);
+  if (scope == ALL || !this->IsParallel())
+  {
+    this->Merge(this->Exchange(this->Pack(raws, this->AllCells(), own)), problem);
+    return this->Whole;
+  }
+  problem = own;
+  const std::vector<Choice> shared = this->FindShared(raws, problem);
+  std::vector<std::vector<char>> messages;
+  for (const Choice& cells : shared)
+  {
+    const bool any = std::any_of(
+      cells.begin(), cells.end(), [](const std::vector<vtkIdType>& some) { return !some.empty(); });
+    messages.push_back(any ? this->Pack(raws, cells, std::string()) : std::vector<char>());
+  }
+  this->Merge(this->ExchangeWithEach(messages), problem);
   return this->Whole;
 }
 

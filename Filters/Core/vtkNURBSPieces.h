@@ -25,9 +25,11 @@
 
 #include "Types.h"
 #include "vtkNURBSFiltersCoreModule.h" // For export macro
+#include "vtkNURBSModelView.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h" // For vtkIdType
 
+#include <array>  // For std::array
 #include <map>    // For std::map
 #include <string> // For std::string
 #include <vector> // For std::vector
@@ -56,9 +58,25 @@ public:
   /// True if other processes work on the same request.
   bool IsParallel() const { return this->Controller != nullptr; }
 
-  /// All processes' faces, in the order of processes and their cells; the input itself if there are
+  enum Scope
+  {
+    ALL,       ///< The faces of all processes.
+    NEIGHBOURS ///< Own faces, and those of others that have an edge or vertex with them in common.
+  };
+
+  /// Faces of all processes, in the order of processes and their cells; the input itself if there are
   /// no others. What is wrong with the input of any process is written to `problem`. Owned by this.
-  vtkDataObject* Gather(vtkDataObject* input, std::string& problem);
+  vtkDataObject* Gather(vtkDataObject* input, std::string& problem, Scope scope = ALL);
+
+  /// Identity of the faces and edges of what was gathered, the same on all processes: of each grid that
+  /// has cells, in order. Of a face the owner's rank and a number there.
+  struct Identity
+  {
+    std::vector<char> IsGhost; ///< One a face: it is another process's.
+    std::vector<std::array<std::int64_t, 2>> Faces;
+    std::vector<std::int64_t> Edges, Vertices;
+  };
+  Identity GetIdentity() const;
 
   /// True if Gather would return what `before` did: no process's input has changed since.
   bool IsUpToDate(vtkDataObject* input) const;
@@ -74,6 +92,11 @@ public:
   /// Extremes and sums over all processes, in place.
   void Largest(double* values, int count) const;
   void Sum(vtkIdType* values, int count) const;
+  /// Of numbers by block, whichever process has it: extremes, sums.
+  void Largest(std::map<unsigned int, double>& values) const;
+  void Sum(std::map<unsigned int, vtkIdType>& values) const;
+  /// The block of each grid of what was gathered that has cells, in order.
+  std::vector<unsigned int> GetBlocks() const;
   /// The box around those of all processes.
   nurbs::Box3 Around(const nurbs::Box3& own) const;
 
@@ -89,7 +112,16 @@ private:
     vtkIdType FirstCell = 0; ///< Its cells' numbers among those of this process in the block.
   };
   void FindGrids(vtkDataObject* input, std::vector<Grid>& grids) const;
-  std::vector<char> Pack(const std::string& problem) const;
+  using Raws = std::vector<vtkNURBSModelView::Raw>;
+  /// The cells of every grid that a message is about.
+  using Choice = std::vector<std::vector<vtkIdType>>;
+  Raws MakeRaws(const std::string& problem) const;
+  std::vector<char> Pack(const Raws& raws, const Choice& cells, const std::string& problem) const;
+  Choice AllCells() const;
+  std::vector<std::vector<std::int64_t>> FindKeys(const Raws& raws) const;
+  std::vector<Choice> FindShared(const Raws& raws, std::string& problem);
+  std::vector<std::vector<char>> ExchangeWithEach(
+    const std::vector<std::vector<char>>& messages) const;
   void Merge(const std::vector<std::vector<char>>& messages, std::string& problem);
   vtkSmartPointer<vtkDataObject> KeepLeaf(const Grid& grid, vtkDataObject* leaf) const;
   vtkSmartPointer<vtkDataObject> KeepModel(const Grid& grid, vtkUnstructuredGrid* leaf) const;
@@ -101,8 +133,9 @@ private:
   vtkDataObject* Input = nullptr;
   std::vector<Grid> Grids;              ///< This process's.
   vtkSmartPointer<vtkDataObject> Whole; ///< Null: the input is used as it is.
-  /// By block: the global ids of the edges of Whole.
-  std::map<unsigned int, std::vector<std::int64_t>> EdgeIds;
+  /// By block: the global ids of the edges and vertices of Whole, and its box.
+  std::map<unsigned int, std::vector<std::int64_t>> EdgeIds, VertexIds;
+  std::map<unsigned int, nurbs::Box3> Boxes;
 };
 
 #endif

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pvserver of its own: models travel to the client and are drawn there, or on the server."""
+"""A pvserver of its own: models travel to the client and are drawn there, or on the server.
+
+Run as `pvpython TestClientServer.py PLUGIN FOLDER SERVER...`; SERVER is pvserver, or mpirun and pvserver.
+"""
 import socket
 import subprocess
 import sys
@@ -23,7 +26,7 @@ with socket.socket() as free:
     port = free.getsockname()[1]
 # It ends with the client's connection, at the end of this script.
 server = subprocess.Popen(
-    ["timeout", "100", sys.argv[3], "--server-port=%d" % port],
+    ["timeout", "100"] + sys.argv[3:] + ["--server-port=%d" % port],
     stdout=subprocess.PIPE,
     universal_newlines=True,
 )
