@@ -8,6 +8,7 @@ option(NURBS_WERROR "Treat warnings as errors" OFF)
 set(NURBS_SANITIZE "" CACHE STRING "Comma-separated sanitizers, e.g. address,undefined")
 option(NURBS_PARAVIEW_PLUGIN "Build the ParaView plugin, if the VTK is that of ParaView's SDK" ON)
 option(NURBS_PARAVIEW_WIDGETS "Build the plugin's Qt widgets (needs Qt 5's development files)" ON)
+option(NURBS_DEBIAN_PACKAGE "Prepare the build for cpack -G DEB" OFF)
 set(NURBS_VTK_FLAVOUR "auto" CACHE STRING
   "Whose VTK to build on: paraview (ParaView's SDK), plain (find_package(VTK)), or auto")
 set_property(CACHE NURBS_VTK_FLAVOUR PROPERTY STRINGS auto paraview plain)

@@ -21,6 +21,14 @@ if (NURBS_PARAVIEW_WIDGETS)
   endforeach ()
 endif ()
 find_package(ParaView 5.11 REQUIRED COMPONENTS ${paraview_components})
+if (NURBS_PARAVIEW_WIDGETS)
+  # The base of widgets in the view is in this library, whose component would ask for what is not in
+  # Debian's package. Its headers are beside the others.
+  find_library(NURBS_PARAVIEW_APPLICATION
+    NAMES "pqApplicationComponents-pv${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}" pqApplicationComponents
+    HINTS "${ParaView_PREFIX_PATH}/${CMAKE_INSTALL_LIBDIR}" "${ParaView_PREFIX_PATH}/lib" REQUIRED)
+  mark_as_advanced(NURBS_PARAVIEW_APPLICATION)
+endif ()
 message(STATUS "ParaView ${ParaView_VERSION}: ${ParaView_DIR}")
 
 paraview_plugin_scan(

@@ -124,7 +124,7 @@ public:
    * Multiply the weights of the selection by a factor, as one edit. False if that was refused or
    * nothing is selected.
    */
-  bool ScaleSelectedWeights(double factor);
+  virtual bool ScaleSelectedWeights(double factor);
 
   ///@{
   /**

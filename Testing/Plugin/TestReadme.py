@@ -1,4 +1,4 @@
-"""Runs the Python pipelines that README.md shows, one after the other, as they stand there."""
+"""Runs the Python pipeline that README.md shows, as it stands there."""
 
 import os
 import re
@@ -10,9 +10,8 @@ readme = Path(sys.argv[1]).read_text(encoding="utf-8")
 pipelines = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    names = {}
     for pipeline in pipelines:
-        exec(compile(pipeline, "README.md", "exec"), names)
+        exec(compile(pipeline, "README.md", "exec"), {})
     (mesh,) = Path(folder).glob("*.vtpc")
     from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
@@ -21,5 +20,4 @@ with tempfile.TemporaryDirectory() as folder:
     check.Update()
     triangles = check.GetOutput().GetNumberOfCells()
     assert triangles > 1000, triangles
-    assert names["mapper"].GetNumberOfTriangles() > 1000
 print("README: the pipeline wrote", triangles, "triangles")

@@ -1,56 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPVNURBSControlPointEdits.h"
 
+#include "vtkNURBSEditTables.h"
+
 #include "vtkObjectFactory.h"
 
 vtkStandardNewMacro(vtkPVNURBSControlPointEdits);
 
+vtkPVNURBSControlPointEdits::vtkPVNURBSControlPointEdits()
+  : Tables(new vtkNURBSEditTables)
+{}
+
+vtkPVNURBSControlPointEdits::~vtkPVNURBSControlPointEdits() = default;
+
 void vtkPVNURBSControlPointEdits::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Moves: " << this->Moves.size() << "\n";
-  os << indent << "Positions: " << this->Positions.size() << "\n";
-  os << indent << "Weights: " << this->Weights.size() << "\n";
+  os << indent << "Moves: " << this->Tables->Moves.size() << "\n";
+  os << indent << "Positions: " << this->Tables->Positions.size() << "\n";
+  os << indent << "Weights: " << this->Tables->Weights.size() << "\n";
 }
 
-void vtkPVNURBSControlPointEdits::AddMove(
-  double block, double point, double dx, double dy, double dz)
+template <typename Row>
+void vtkPVNURBSControlPointEdits::Add(std::vector<Row>& rows, const Row& row)
 {
-  this->Moves.push_back({ block, point, dx, dy, dz });
+  rows.push_back(row);
   this->Changed = true;
   this->Modified();
 }
 
-void vtkPVNURBSControlPointEdits::AddPosition(
-  double block, double point, double x, double y, double z)
-{
-  this->Positions.push_back({ block, point, x, y, z });
-  this->Changed = true;
-  this->Modified();
-}
-
-void vtkPVNURBSControlPointEdits::AddWeight(double block, double point, double weight)
-{
-  this->Weights.push_back({ block, point, weight, 0.0, 0.0 });
-  this->Changed = true;
-  this->Modified();
-}
-
-void vtkPVNURBSControlPointEdits::RemoveAllMoves()
-{
-  this->Clear(this->Moves);
-}
-
-void vtkPVNURBSControlPointEdits::RemoveAllPositions()
-{
-  this->Clear(this->Positions);
-}
-
-void vtkPVNURBSControlPointEdits::RemoveAllWeights()
-{
-  this->Clear(this->Weights);
-}
-
+template <typename Row>
 void vtkPVNURBSControlPointEdits::Clear(std::vector<Row>& rows)
 {
   if (!rows.empty())
@@ -61,33 +40,36 @@ void vtkPVNURBSControlPointEdits::Clear(std::vector<Row>& rows)
   }
 }
 
-// All rows are one group that stays open: cancelling it takes them back without a history that grows.
-void vtkPVNURBSControlPointEdits::Apply()
+void vtkPVNURBSControlPointEdits::AddMove(
+  double block, double point, double dx, double dy, double dz)
 {
-  if (this->InGroup)
-  {
-    this->CancelGroup();
-  }
-  this->BeginGroup();
-  this->InGroup = true;
-  const auto id = [](double value) { return static_cast<vtkIdType>(value); };
-  const auto flat = [](double value) { return static_cast<unsigned int>(value); };
-  for (const auto& [block, point, x, y, z] : this->Positions)
-  {
-    block > 0.0 ? this->SetBlockControlPointPosition(flat(block), id(point), x, y, z)
-                : this->SetControlPointPosition(id(point), x, y, z);
-  }
-  for (const auto& [block, point, x, y, z] : this->Moves)
-  {
-    block > 0.0 ? this->MoveBlockControlPoint(flat(block), id(point), x, y, z)
-                : this->MoveControlPoint(id(point), x, y, z);
-  }
-  for (const auto& row : this->Weights)
-  {
-    row[0] > 0.0 ? this->SetBlockControlPointWeight(flat(row[0]), id(row[1]), row[2])
-                 : this->SetControlPointWeight(id(row[1]), row[2]);
-  }
-  this->Changed = false;
+  this->Add(this->Tables->Moves, { block, point, dx, dy, dz });
+}
+
+void vtkPVNURBSControlPointEdits::AddPosition(
+  double block, double point, double x, double y, double z)
+{
+  this->Add(this->Tables->Positions, { block, point, x, y, z });
+}
+
+void vtkPVNURBSControlPointEdits::AddWeight(double block, double point, double weight)
+{
+  this->Add(this->Tables->Weights, { block, point, weight });
+}
+
+void vtkPVNURBSControlPointEdits::RemoveAllMoves()
+{
+  this->Clear(this->Tables->Moves);
+}
+
+void vtkPVNURBSControlPointEdits::RemoveAllPositions()
+{
+  this->Clear(this->Tables->Positions);
+}
+
+void vtkPVNURBSControlPointEdits::RemoveAllWeights()
+{
+  this->Clear(this->Tables->Weights);
 }
 
 int vtkPVNURBSControlPointEdits::RequestData(
@@ -95,7 +77,16 @@ int vtkPVNURBSControlPointEdits::RequestData(
 {
   if (this->Changed)
   {
-    this->Apply();
+    // All rows are one group that stays open: cancelling it takes them back without a history that
+    // grows.
+    if (this->InGroup)
+    {
+      this->CancelGroup();
+    }
+    this->BeginGroup();
+    this->InGroup = true;
+    this->Tables->Apply(this);
+    this->Changed = false;
   }
   return this->Superclass::RequestData(request, inputs, outputs);
 }

@@ -15,8 +15,10 @@
 #include "vtkNURBSControlPointEdits.h"
 #include "vtkNURBSParaViewServerModule.h" // For export macro
 
-#include <array>  // For a row
-#include <vector> // For the rows
+#include <memory> // For std::unique_ptr
+#include <vector> // For rows
+
+struct vtkNURBSEditTables;
 
 class VTKNURBSPARAVIEWSERVER_EXPORT vtkPVNURBSControlPointEdits : public vtkNURBSControlPointEdits
 {
@@ -50,8 +52,8 @@ public:
   ///@}
 
 protected:
-  vtkPVNURBSControlPointEdits() = default;
-  ~vtkPVNURBSControlPointEdits() override = default;
+  vtkPVNURBSControlPointEdits();
+  ~vtkPVNURBSControlPointEdits() override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -60,13 +62,12 @@ private:
   vtkPVNURBSControlPointEdits(const vtkPVNURBSControlPointEdits&) = delete;
   void operator=(const vtkPVNURBSControlPointEdits&) = delete;
 
-  using Row = std::array<double, 5>;
+  template <typename Row>
+  void Add(std::vector<Row>& rows, const Row& row);
+  template <typename Row>
   void Clear(std::vector<Row>& rows);
-  void Apply();
 
-  std::vector<Row> Moves;
-  std::vector<Row> Positions;
-  std::vector<Row> Weights;
+  std::unique_ptr<vtkNURBSEditTables> Tables;
   bool Changed = false; ///< Rows that are not applied yet.
   bool InGroup = false; ///< The applied rows are the open group of the edits' history.
 };

@@ -49,6 +49,11 @@ try:
     view.UseFXAA = 0
     display = simple.Show(reader, view)
     assert display.Representation == "NURBS Surface"
+    # So does what a filter of ParaView passes on, which only the server can tell from cut cells.
+    for name, wanted in (("Transform", "NURBS Surface"), ("Clip", "Surface")):
+        made = updated(getattr(simple, name)(Input=reader))
+        assert simple.Show(made, view).Representation == wanted, name
+        simple.Delete(made)
     view.ResetCamera(True)
     view.RemoteRenderThreshold = 1000.0  # MiB: the client draws
     here = picture("drawn-here.png")

@@ -237,7 +237,7 @@ simple.Hide(painted, view)
 some = simple.Threshold(Input=reader, Scalars=["CELLS", "FaceId"], LowerThreshold=0, UpperThreshold=5)
 part = simple.Show(some, view)
 simple.Hide(group, view)
-part.SetRepresentationType("NURBS Surface")
+assert part.Representation == "NURBS Surface", part.Representation
 view.ResetCamera(True)
 assert covered(picture("threshold.png")).sum() > 1000
 print("passed")
