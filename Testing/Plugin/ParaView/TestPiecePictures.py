@@ -17,6 +17,9 @@ NAMES = ("surface", "edges", "ids", "curvature", "translucent", "mesh", "lines")
 # depth come in another order.
 LIMIT = 3
 PIXELS = {"edges": 20, "lines": 20}
+# Translucent faces are blended process by process: where those of two lie behind each other alternately
+# they come in another order. Of the pixels drawn that are some, by some shade.
+TRANSLUCENT = 0.2, 40
 
 
 def run(ranks):
@@ -33,16 +36,23 @@ def run(ranks):
 
 alone = run(1)
 failed = False
+DRAWN = {}
 for name, image in alone.items():
     drawn = sum(1 for p in image.getdata() if p != (255, 255, 255))
     print("%-12s %6d pixels drawn by one process" % (name, drawn))
-    failed = failed or drawn < 500
+    DRAWN[name] = drawn
+    failed = failed or drawn < 200
 for processes in (2, 4):
     for name, image in run(processes).items():
         difference = ImageChops.difference(alone[name], image)
         off = sum(1 for pixel in difference.getdata() if max(pixel) > LIMIT)
-        print("%d processes, %-12s %5d pixels differ" % (processes, name, off))
-        failed = failed or off > PIXELS.get(name, 10)
+        most = max(max(pixel) for pixel in difference.getdata())
+        print("%d processes, %-12s %5d pixels differ, by %d" % (processes, name, off, most))
+        if name == "translucent":
+            share, shade = TRANSLUCENT
+            failed = failed or off > share * DRAWN[name] or most > shade
+        else:
+            failed = failed or off > PIXELS.get(name, 10)
 if failed:
     raise SystemExit(1)
 print("passed")

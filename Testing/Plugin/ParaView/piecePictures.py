@@ -28,7 +28,7 @@ assert display.Representation == "NURBS Surface", display.Representation
 view.CameraPosition = [1.0, -2.0, 1.5]
 view.CameraFocalPoint = [0.0, 0.0, 0.0]
 view.CameraViewUp = [0.0, 0.0, 1.0]
-view.ResetCamera(True)
+view.ResetCamera()
 
 
 def picture(name):
@@ -57,5 +57,7 @@ shown.Representation = "Surface"
 picture("mesh")
 lines = simple.NURBSVisibleRegions(Input=model, Direction=[1.0, -2.0, 1.5])
 simple.Hide(mesh, view)
-simple.Show(simple.OutputPort(lines, 1), view)
+drawn = simple.Show(simple.OutputPort(lines, 1), view)
+simple.ColorBy(drawn, None)
+drawn.AmbientColor = drawn.DiffuseColor = [0.0, 0.0, 0.0]
 picture("lines")
