@@ -13,9 +13,6 @@
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <IGESSolid_Face.hxx>
 #include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <Message_ProgressIndicator.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <StepShape_FaceSurface.hxx>
@@ -24,16 +21,14 @@
 #include <TopExp_Explorer.hxx>
 #include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
-#include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
-#include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <mutex>
+#include <memory>
 
 namespace nurbs
 {
@@ -41,81 +36,12 @@ namespace nurbs
 namespace
 {
 
-/// Passes OpenCASCADE's progress on and its wish to stop back.
-class Progress : public Message_ProgressIndicator
+void SetUnit(CADDocument& document, const std::string& name)
 {
-public:
-  explicit Progress(const CADProgress& report)
-    : Report(report)
-  {}
-  bool Stopped() const { return this->Stop; }
-
-protected:
-  Standard_Boolean UserBreak() override { return this->Stop; }
-  void Show(const Message_ProgressScope&, const Standard_Boolean) override
+  if (const CADUnit* unit = FindCADUnit(name))
   {
-    // Called under a lock, in steps of our own choosing.
-    const double now = this->GetPosition();
-    if (now >= this->Next && !this->Stop)
-    {
-      this->Next = now + 0.01;
-      this->Stop = !this->Report(now);
-    }
-  }
-
-private:
-  const CADProgress& Report;
-  std::atomic<bool> Stop{ false };
-  double Next = 0.0;
-};
-
-/// Keeps OpenCASCADE's messages off the console and its unit at millimetres while it lives.
-class Quiet
-{
-public:
-  Quiet()
-    : Printers(Message::DefaultMessenger()->Printers())
-  {
-    Message::DefaultMessenger()->ChangePrinters().Clear();
-  }
-  ~Quiet() { Message::DefaultMessenger()->ChangePrinters() = this->Printers; }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
-private:
-  Message_SequenceOfPrinters Printers;
-};
-
-struct Unit
-{
-  const char* Name; ///< As in STEP and IGES files, lower case.
-  const char* Symbol;
-  double Millimetres;
-};
-
-constexpr Unit Units[] = { { "millimetre", "mm", 1.0 }, { "millimeter", "mm", 1.0 },
-  { "metre", "m", 1000.0 }, { "meter", "m", 1000.0 }, { "centimetre", "cm", 10.0 },
-  { "centimeter", "cm", 10.0 }, { "kilometre", "km", 1e6 }, { "kilometer", "km", 1e6 },
-  { "micrometre", "um", 1e-3 }, { "micrometer", "um", 1e-3 }, { "micron", "um", 1e-3 },
-  { "inch", "in", 25.4 }, { "foot", "ft", 304.8 }, { "mile", "mi", 1609344.0 },
-  { "mil", "mil", 0.0254 }, { "uin", "uin", 2.54e-5 }, { "mm", "mm", 1.0 }, { "m", "m", 1000.0 },
-  { "cm", "cm", 10.0 }, { "km", "km", 1e6 }, { "um", "um", 1e-3 }, { "in", "in", 25.4 },
-  { "ft", "ft", 304.8 }, { "mi", "mi", 1609344.0 } };
-
-void SetUnit(CADDocument& document, std::string name)
-{
-  for (char& c : name)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  for (const Unit& unit : Units)
-  {
-    if (name == unit.Name)
-    {
-      document.FileUnit = unit.Symbol;
-      document.FileUnitLength = unit.Millimetres;
-      return;
-    }
+    document.FileUnit = unit->Symbol;
+    document.FileUnitLength = unit->Millimetres;
   }
 }
 
@@ -130,14 +56,6 @@ void RequireFaces(bool some, const std::string& path, CADFormat format)
   {
     throw Error("\"" + path + "\": the " + NameOf(format) + " file holds no face");
   }
-}
-
-Handle(TDocStd_Document) NewDocument()
-{
-  // Not registered with the application: closed when the last handle goes.
-  Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
-  XCAFApp_Application::GetApplication()->InitDocument(document);
-  return document;
 }
 
 void CheckRead(IFSelect_ReturnStatus status, const std::string& path, CADFormat format)
@@ -193,6 +111,7 @@ void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDo
   reader.SetGDTMode(false);
   reader.SetMatMode(false);
   reader.SetViewMode(false);
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   CheckRead(reader.ReadFile(path.c_str()), path, document.Format);
   TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
   reader.ChangeReader().FileUnits(lengths, angles, solidAngles);
@@ -200,7 +119,7 @@ void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDo
   {
     SetUnit(document, lengths.First().ToCString());
   }
-  Handle(TDocStd_Document) data = NewDocument();
+  Handle(TDocStd_Document) data = NewCADDocument();
   if (!reader.Transfer(data, range))
   {
     throw Error("\"" + path + "\": no shape could be made from the STEP file's data");
@@ -222,7 +141,7 @@ void LoadIges(const std::string& path, const Message_ProgressRange& range, CADDo
     const Handle(TCollection_HAsciiString) name = model->GlobalSection().UnitName();
     SetUnit(document, name.IsNull() ? "" : name->ToCString());
   }
-  Handle(TDocStd_Document) data = NewDocument();
+  Handle(TDocStd_Document) data = NewCADDocument();
   if (!reader.Transfer(data, range))
   {
     throw Error("\"" + path + "\": no shape could be made from the IGES file's data");
@@ -282,10 +201,8 @@ CADDocument LoadCADFile(const std::string& path, const CADProgress& report)
   document.Nodes.emplace_back();
   document.Nodes[0].Name = std::filesystem::u8path(path).stem().u8string();
 
-  static std::mutex turn;
-  const std::lock_guard<std::mutex> lock(turn);
-  const Quiet quiet;
-  const Handle(Progress) progress = new Progress(report);
+  const CADSession session;
+  const Handle(CADProgressIndicator) progress = new CADProgressIndicator(report);
   try
   {
     // Allocated apart: what a crash leaves behind is never touched again.

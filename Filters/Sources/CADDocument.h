@@ -4,10 +4,9 @@
 #pragma once
 
 #include "CADFile.h"
+#include "CADSession.h"
 #include "ModelBuilder.h"
 #include "PartConverter.h"
-
-#include <functional>
 
 namespace nurbs
 {
@@ -41,9 +40,6 @@ struct CADDocument
   std::string FileUnit = "mm";       ///< Unit of length in the file: "mm", "m", "in", ...
   double FileUnitLength = 1.0;       ///< That unit in millimetres.
 };
-
-/// Called with the part done (0 to 1); returns false to stop. From the calling thread.
-using CADProgress = std::function<bool(double)>;
 
 /// Loads a file. Throws Error with one clear sentence when there is nothing to be had: see
 /// DetectCADFormat; syntax errors; no shape in it. Stopped by `progress`: throws Error "aborted".

@@ -462,6 +462,8 @@ private:
   Vec3 Middle(const ViewLine& line, const LineStep& step) const;
   bool Shows(const ViewLine& line, const LineStep& step, int side) const;
   bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
+  bool IsEdgeOn(const ViewLine& line) const;
+  bool IsForemost(const ViewLine& line, const LineStep& step) const;
 
   const ViewLines& Lines;
   const ImagePlane& Image;
@@ -531,6 +533,46 @@ bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) co
     this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
 }
 
+// True if no face of an edge is seen, because all are edge-on.
+bool ShownLines::IsEdgeOn(const ViewLine& line) const
+{
+  const auto isEdgeOn = [&](const EdgeUse& use) {
+    const auto& patches = this->Lines.Faces[use.Face].Patches;
+    return patches[int(PatchVisibility::EdgeOn)] > 0 &&
+      patches[int(PatchVisibility::Visible)] + patches[int(PatchVisibility::Partial)] +
+        patches[int(PatchVisibility::Invisible)] ==
+      0;
+  };
+  return line.IsEdge() &&
+    std::all_of(this->Lines.Uses[line.Edge].begin(), this->Lines.Uses[line.Edge].end(), isEdgeOn);
+}
+
+// True if nothing but its own faces is in front of a line, and no line that it coincides with is nearer.
+bool ShownLines::IsForemost(const ViewLine& line, const LineStep& step) const
+{
+  const Vec3 point = this->Middle(line, step);
+  const double depth = this->Image.Depth(point);
+  const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
+  if (front.Face >= 0 && !IsOfFace(this->Lines, line, front.Face) &&
+    depth - this->Image.Depth(front.Point) > BareDepth * this->Map.Pixel)
+  {
+    return false;
+  }
+  const auto& ends = this->Map.Snapped.Edges[step.Edge];
+  for (const LineSource& source : this->Map.SourcesOf(step.Edge))
+  {
+    const ViewLine& other = this->Lines.Lines[source.Line];
+    const LinePosition middle = 0.5 *
+      (this->Map.At(this->Lines.Lines, source, ends[0]) +
+        this->Map.At(this->Lines.Lines, source, ends[1]));
+    if (&other != &line && depth - this->Image.Depth(PointAt(other, middle)) > this->Map.Pixel)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 // Between two crossings nothing changes: one look a side, where there is most room.
 void ShownLines::Find(std::int64_t index)
 {
@@ -539,6 +581,15 @@ void ShownLines::Find(std::int64_t index)
   for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
   {
     last = this->Walk.GroupEnd(steps, first);
+    if (this->IsEdgeOn(line))
+    {
+      const bool isForemost = this->IsForemost(line, steps[first + (last - first) / 2]);
+      for (std::size_t k = first; k < last; ++k)
+      {
+        this->Map.Sources[steps[k].Source].IsBare = isForemost;
+      }
+      continue;
+    }
     // A silhouette has its own surface on its left only.
     const int sides = line.IsEdge() || line.IsIntersection() ? 2 : 1;
     for (int lineSide = 0; lineSide < sides; ++lineSide)

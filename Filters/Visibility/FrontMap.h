@@ -46,7 +46,8 @@ struct LineSource
   /// Bits 0 and 1: the surface seen on the left and right of the edge (from start to end) ends here,
   /// at this line of its own. Of a curve in which two faces pierce each other: it is seen.
   std::uint8_t Shows = 0;
-  /// Nothing is in front of the line here, though its own surface is too narrow to have a cell.
+  /// Nothing is in front of the line here, though its own surface is too narrow to have a cell, or seen
+  /// edge-on.
   bool IsBare = false;
 };
 

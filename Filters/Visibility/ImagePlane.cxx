@@ -33,7 +33,7 @@ void CheckViewer(const Viewer& viewer)
   }
   if (!viewer.Perspective && viewer.Place.isZero(0.0))
   {
-    throw Error("The " + name + " has no length");
+    throw Error("The " + name + " has length zero");
   }
 }
 
@@ -51,7 +51,8 @@ ImagePlane::ImagePlane(const Viewer& viewer, const Vec3& up, const Box3& bounds)
   const Vec3 away = viewer.Perspective ? Vec3(middle - viewer.Place) : Vec3(-viewer.Place);
   const double largest = away.cwiseAbs().maxCoeff();
   this->Axes[2] = largest > 0.0 ? Vec3((away / largest).normalized()) : Vec3(0.0, 0.0, -1.0);
-  Vec3 upwards = up;
+  const double height = up.cwiseAbs().maxCoeff();
+  Vec3 upwards = height > 0.0 ? Vec3(up / height) : up;
   for (const Vec3& other : { Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY()) })
   {
     if (this->Axes[2].cross(upwards).norm() > 1e-9 * upwards.norm())

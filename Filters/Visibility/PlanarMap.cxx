@@ -123,7 +123,7 @@ public:
     , Progress(progress)
   {}
 
-  PlanarMap Make(int samplesPerCell)
+  PlanarMap Make(int samplesPerCell, bool diagonals)
   {
     this->InsertVertices();
     this->InsertEdges();
@@ -131,6 +131,10 @@ public:
     this->MarkCells();
     this->SampleSides();
     this->SampleCells(std::size_t(samplesPerCell));
+    if (diagonals && !this->IsFlat())
+    {
+      this->CollectDiagonals();
+    }
     this->Report(1.0);
     return std::move(this->Map);
   }
@@ -437,6 +441,20 @@ private:
     }
   }
 
+  void CollectDiagonals()
+  {
+    for (const Triangulation::Edge& side : this->Mesh.finite_edges())
+    {
+      const std::int32_t cell = side.first->info();
+      if (cell != 0 && !side.first->is_constrained(side.second))
+      {
+        const std::int32_t a = side.first->vertex(Triangulation::ccw(side.second))->info();
+        const std::int32_t b = side.first->vertex(Triangulation::cw(side.second))->info();
+        this->Map.Diagonals.push_back({ std::min(a, b), std::max(a, b), cell });
+      }
+    }
+  }
+
   // Areas, and the largest incircles of each cell.
   void SampleCells(std::size_t most)
   {
@@ -523,13 +541,13 @@ private:
 
 } // namespace
 
-PlanarMap MakePlanarMap(
-  const SnappedSegments& segments, int samplesPerCell, const std::function<bool(double)>& progress)
+PlanarMap MakePlanarMap(const SnappedSegments& segments, int samplesPerCell,
+  const std::function<bool(double)>& progress, bool diagonals)
 {
   CheckInput(segments, samplesPerCell);
   try
   {
-    return MapMaker(segments, progress).Make(samplesPerCell);
+    return MapMaker(segments, progress).Make(samplesPerCell, diagonals);
   }
   catch (const Stopped&)
   {

@@ -21,6 +21,13 @@ struct PlanarSample
   double Radius = 0.0;
 };
 
+/// A side of a triangle between two vertices that is no edge of the map.
+struct PlanarDiagonal
+{
+  std::int32_t Start = 0, End = 0; ///< Start < End.
+  std::int32_t Cell = 0;
+};
+
 /// See PlanarMap::SideSamples; pixels.
 inline constexpr double SideReach = 4.0;
 
@@ -42,14 +49,16 @@ struct PlanarMap
   std::vector<std::int64_t> SampleStart;
   std::vector<PlanarSample> Samples;
   bool Aborted = false; ///< `progress` ended the work; the arrays are empty.
+  /// On demand: what divides the bounded cells into triangles, each once.
+  std::vector<PlanarDiagonal> Diagonals;
 };
 
 /// The cells of `segments`, the edges of which must not cross or touch other than in vertices, as
 /// SnapRound makes them; paths are not used. `samplesPerCell` >= 1: the most samples of a cell.
-/// `progress` is called with the share done; false: stop. Throws Error if samplesPerCell < 1, a
+/// `diagonals`: make PlanarMap::Diagonals, too. `progress` is called with the share done; false: stop. Throws Error if samplesPerCell < 1, a
 /// coordinate exceeds GridLimit, vertices are equal, an edge names a vertex that isn't there, edges
 /// aren't pairs Start < End in increasing order, or edges cross or pass through vertices.
 PlanarMap MakePlanarMap(const SnappedSegments& segments, int samplesPerCell = 1,
-  const std::function<bool(double)>& progress = nullptr);
+  const std::function<bool(double)>& progress = nullptr, bool diagonals = false);
 
 } // namespace nurbs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RegionLoops.h"
 
+#include "HalfEdges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -24,9 +26,6 @@ constexpr double SeamReach = 4.0;
 // Ends that are moved to each other; farther apart, they may be the same point of a pole.
 constexpr double NearParameters = 0.02;
 
-// A half-edge 2 e + side runs along edge e and has that side's cell on its left.
-using HalfEdge = std::int32_t;
-
 // Borders of regions in the image.
 class BorderTracer
 {
@@ -45,17 +44,12 @@ public:
 private:
   bool IsCut(std::int32_t edge, std::int64_t face) const;
   bool IsBorder(HalfEdge half) const;
-  HalfEdge Next(HalfEdge half) const;
   std::vector<char> FindSpecks() const;
-  std::int32_t Start(HalfEdge half) const { return this->Map.Snapped.Edges[half / 2][half % 2]; }
 
   const ViewLines& Lines;
   const FrontMap& Map;
   bool BothSides;
-  std::vector<char> Border;          // One a half-edge.
-  std::vector<std::int64_t> First;   // One a vertex, into Around; and the end.
-  std::vector<HalfEdge> Around;      // That start at the vertex, counter-clockwise.
-  std::vector<std::int32_t> PlaceOf; // Of a half-edge in Around.
+  std::vector<char> Border; // One a half-edge.
 };
 
 BorderTracer::BorderTracer(const ViewLines& lines, const FrontMap& map, bool bothSides)
@@ -63,44 +57,8 @@ BorderTracer::BorderTracer(const ViewLines& lines, const FrontMap& map, bool bot
   , Map(map)
   , BothSides(bothSides)
 {
-  const auto halves = HalfEdge(2 * map.Snapped.Edges.size());
-  const std::vector<GridPoint>& at = map.Snapped.Vertices;
-  this->First.assign(at.size() + 1, 0);
-  for (HalfEdge h = 0; h < halves; ++h)
-  {
-    ++this->First[this->Start(h) + 1];
-  }
-  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
-  this->Around.resize(halves);
-  std::vector<std::int64_t> next(this->First.begin(), this->First.end() - 1);
-  for (HalfEdge h = 0; h < halves; ++h)
-  {
-    this->Around[next[this->Start(h)]++] = h;
-  }
-  const auto way = [&](HalfEdge h) {
-    const GridPoint& a = at[this->Start(h)];
-    const GridPoint& b = at[this->Start(h ^ 1)];
-    return GridPoint{ b.X - a.X, b.Y - a.Y };
-  };
-  // Coordinates have 30 bits, products 61.
-  const auto isUpper = [](const GridPoint& d) { return d.Y > 0 || (d.Y == 0 && d.X > 0); };
-  const auto before = [&](HalfEdge a, HalfEdge b) {
-    const GridPoint da = way(a);
-    const GridPoint db = way(b);
-    return isUpper(da) != isUpper(db) ? isUpper(da) : da.X * db.Y - da.Y * db.X > 0;
-  };
-  for (std::size_t v = 0; v < at.size(); ++v)
-  {
-    std::sort(
-      this->Around.begin() + this->First[v], this->Around.begin() + this->First[v + 1], before);
-  }
-  this->PlaceOf.resize(halves);
-  for (HalfEdge k = 0; k < halves; ++k)
-  {
-    this->PlaceOf[this->Around[k]] = k;
-  }
-  this->Border.resize(halves);
-  for (HalfEdge h = 0; h < halves; ++h)
+  this->Border.resize(2 * map.Snapped.Edges.size());
+  for (HalfEdge h = 0; h < HalfEdge(this->Border.size()); ++h)
   {
     this->Border[h] = this->IsBorder(h);
   }
@@ -145,25 +103,6 @@ bool BorderTracer::IsBorder(HalfEdge half) const
                                                             : this->IsCut(edge, face);
 }
 
-// The region lies clockwise of the way back.
-HalfEdge BorderTracer::Next(HalfEdge half) const
-{
-  const HalfEdge back = half ^ 1;
-  const std::int32_t vertex = this->Start(back);
-  const auto first = HalfEdge(this->First[vertex]);
-  const auto count = HalfEdge(this->First[vertex + 1]) - first;
-  HalfEdge place = this->PlaceOf[back] - first;
-  for (;;)
-  {
-    place = (place + count - 1) % count;
-    const HalfEdge next = this->Around[first + place];
-    if (this->Border[next] || next == back)
-    {
-      return next;
-    }
-  }
-}
-
 // Cells in regions that consist of slivers only.
 std::vector<char> BorderTracer::FindSpecks() const
 {
@@ -200,20 +139,13 @@ std::vector<std::vector<std::vector<HalfEdge>>> BorderTracer::Trace() const
 {
   const std::vector<char> isSpeck = this->FindSpecks();
   std::vector<std::vector<std::vector<HalfEdge>>> out(this->Lines.Whole.Data.Faces.size());
-  std::vector<char> done(this->Border.size(), 0);
-  for (HalfEdge first = 0; first < HalfEdge(this->Border.size()); ++first)
+  for (std::vector<HalfEdge>& loop : HalfEdges(this->Map.Snapped).Loops(this->Border))
   {
-    if (!this->Border[first] || done[first] || isSpeck[this->Map.Cell(first / 2, first % 2)])
+    const HalfEdge first = loop.front();
+    if (!isSpeck[this->Map.Cell(first / 2, first % 2)])
     {
-      continue;
+      out[this->Face(first)].push_back(std::move(loop));
     }
-    std::vector<HalfEdge> loop;
-    for (HalfEdge h = first; !done[h]; h = this->Next(h))
-    {
-      done[h] = 1;
-      loop.push_back(h);
-    }
-    out[this->Face(first)].push_back(std::move(loop));
   }
   return out;
 }
@@ -234,6 +166,8 @@ public:
   {}
 
   RegionLoop Lift(const std::vector<HalfEdge>& loop);
+  /// Chords of shadows, so far, whose middle is not found on the surface nor near in the image.
+  std::int64_t Unlifted() const { return this->UnliftedChords; }
 
 private:
   // A half-edge, and the line of the face that it is a part of, or the one that casts a shadow.
@@ -270,7 +204,7 @@ private:
   };
 
   void RefineShadow(
-    const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const;
+    const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out);
   Vec2 Seed(HalfEdge half) const;
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
   void DropExcursions(RegionLoop& loop) const;
@@ -296,6 +230,7 @@ private:
   double Precision;
   std::int64_t FaceIndex;
   const SurfaceView& Surface;
+  std::int64_t UnliftedChords = 0;
 };
 
 // The use of an edge that has the face on the half-edge's left: of the two of a seam, the one whose loop
@@ -438,7 +373,7 @@ Vec2 RegionLifter::Seed(HalfEdge half) const
 
 // Adds points between two of a shadow till the lifted middle is on the chord.
 void RegionLifter::RefineShadow(
-  const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out) const
+  const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out)
 {
   if (depth == 0)
   {
@@ -451,6 +386,8 @@ void RegionLifter::RefineShadow(
     middle.UV = a.UV;
     if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
     {
+      const double miss = (this->Image.Project(this->Point(straight)) - middle.Image).norm();
+      this->UnliftedChords += miss > this->Precision;
       return;
     }
   }
@@ -666,21 +603,22 @@ RegionLoop RegionLifter::Lift(const std::vector<HalfEdge>& loop)
 
 } // namespace
 
-std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const ImagePlane& image,
+std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane& image,
   const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,
   const ParallelFor& parallel)
 {
   const std::vector<std::vector<std::vector<HalfEdge>>> loops =
     BorderTracer(lines, map, bothSides).Trace();
-  std::vector<std::vector<RegionLoop>> out(loops.size());
+  std::vector<TracedRegion> out(loops.size());
   parallel(0, std::int64_t(loops.size()), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t f = begin; f < end; ++f)
     {
       RegionLifter lifter(lines, image, caster, map, precision, f);
       for (const std::vector<HalfEdge>& loop : loops[f])
       {
-        out[f].push_back(lifter.Lift(loop));
+        out[f].Loops.push_back(lifter.Lift(loop));
       }
+      out[f].Unlifted = lifter.Unlifted();
     }
   });
   return out;

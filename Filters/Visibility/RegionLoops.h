@@ -28,19 +28,23 @@ using RegionLoop = std::vector<RegionPiece>;
 /// (u, v) at a piece's start or end.
 Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last);
 
-/// The loops of all faces, one list a face. `precision`: largest distance of chords of shadows from the
+/// The region of a face as it is taken back from the image: loops may cross near silhouettes.
+struct TracedRegion
+{
+  std::vector<RegionLoop> Loops;
+  /// Chords of shadows that stay straight because their middle is not found on the surface, and that
+  /// are farther than the precision from it in the image.
+  std::int64_t Unlifted = 0;
+};
+
+/// The regions of all faces. `precision`: largest distance of chords of shadows from the
 /// exact curve on the surface. `bothSides`: what is seen from behind is visible, too.
-std::vector<std::vector<RegionLoop>> TraceRegions(const ViewLines& lines, const ImagePlane& image,
+std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane& image,
   const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,
   const ParallelFor& parallel);
 
-/// The borders of what the regions leave of the faces.
-std::vector<std::vector<RegionLoop>> ComplementRegions(
-  const ViewLines& lines, const std::vector<std::vector<RegionLoop>>& regions);
-
-/// Drops loops that enclose no area in (u, v), such as a shadow's border there and back: a model's loops
-/// must enclose some.
-void DropFlatLoops(const Model& model, std::vector<std::vector<RegionLoop>>& regions);
+/// Drops loops of a face that enclose no area in (u, v): a model's loops must enclose some.
+void DropFlatLoops(const Model& model, std::int64_t face, std::vector<RegionLoop>& loops);
 
 /// Cuts pieces of trim curves wherever a piece of another use of the same edge ends, so that faces
 /// share whole edges.

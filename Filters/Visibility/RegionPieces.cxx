@@ -18,118 +18,6 @@ constexpr double SameShare = 1e-12;
 // what the checks of a model (ModelChecks.cxx) complain of.
 constexpr double FlatShare = 1e-11;
 
-// The parts of [0, 1] that are left.
-std::vector<Interval> Gaps(std::vector<Interval> covered)
-{
-  std::sort(covered.begin(), covered.end(),
-    [](const Interval& a, const Interval& b) { return a.Min < b.Min; });
-  std::vector<Interval> out;
-  double reached = 0.0;
-  for (const Interval& part : covered)
-  {
-    if (part.Min > reached + SameShare)
-    {
-      out.push_back({ reached, part.Min });
-    }
-    reached = std::max(reached, part.Max);
-  }
-  if (reached < 1.0 - SameShare)
-  {
-    out.push_back({ reached, 1.0 });
-  }
-  return out;
-}
-
-// Makes loops of pieces: each goes on in the one that starts nearest to its end, or is closed.
-std::vector<RegionLoop> Link(const Model& model, const Vec2& size, std::vector<RegionPiece> pieces)
-{
-  std::vector<RegionLoop> out;
-  std::vector<char> used(pieces.size(), 0);
-  for (std::size_t first = 0; first < pieces.size(); ++first)
-  {
-    if (used[first])
-    {
-      continue;
-    }
-    used[first] = 1;
-    RegionLoop loop{ pieces[first] };
-    const Vec2 start = EndOfPiece(model, pieces[first], false);
-    for (;;)
-    {
-      const Vec2 end = EndOfPiece(model, loop.back(), true);
-      double least = (start - end).cwiseQuotient(size).squaredNorm();
-      std::size_t next = pieces.size();
-      for (std::size_t k = first + 1; k < pieces.size(); ++k)
-      {
-        const double distance = used[k]
-          ? 1e300
-          : (EndOfPiece(model, pieces[k], false) - end).cwiseQuotient(size).squaredNorm();
-        if (distance < least)
-        {
-          least = distance;
-          next = k;
-        }
-      }
-      const Vec2 to = next < pieces.size() ? EndOfPiece(model, pieces[next], false) : start;
-      if (to != end)
-      {
-        RegionPiece bridge;
-        bridge.Polyline = { end, to };
-        loop.push_back(std::move(bridge));
-      }
-      if (next == pieces.size())
-      {
-        break;
-      }
-      used[next] = 1;
-      loop.push_back(pieces[next]);
-    }
-    out.push_back(std::move(loop));
-  }
-  return out;
-}
-
-std::vector<RegionLoop> Complement(
-  const Model& model, std::int64_t faceIndex, const std::vector<RegionLoop>& region)
-{
-  const Face& face = model.Faces[faceIndex];
-  std::map<std::int64_t, std::vector<Interval>> covered;
-  std::vector<RegionPiece> pieces;
-  for (const RegionLoop& loop : region)
-  {
-    for (const RegionPiece& piece : loop)
-    {
-      if (piece.Curve >= 0)
-      {
-        covered[piece.Curve].push_back(
-          { std::min(piece.From, piece.To), std::max(piece.From, piece.To) });
-      }
-      else
-      {
-        pieces.push_back(piece);
-        std::reverse(pieces.back().Polyline.begin(), pieces.back().Polyline.end());
-      }
-    }
-  }
-  for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
-  {
-    const TrimLoop& loop = model.Loops[l];
-    for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
-    {
-      for (const Interval& gap : Gaps(covered[c]))
-      {
-        RegionPiece piece;
-        piece.Curve = c;
-        piece.From = model.TrimCurves[c].Reversed ? gap.Max : gap.Min;
-        piece.To = model.TrimCurves[c].Reversed ? gap.Min : gap.Max;
-        pieces.push_back(piece);
-      }
-    }
-  }
-  const Vec2 size(face.Geometry.Domain(0).Length(), face.Geometry.Domain(1).Length());
-  return Link(model, size, std::move(pieces));
-}
-
 // True if a loop encloses nothing in (u, v) relative to the domain.
 bool IsFlat(const Model& model, const SurfaceView& surface, const RegionLoop& loop)
 {
@@ -171,17 +59,6 @@ Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
   const Interval domain = curve.Domain();
   const double share = last ? piece.To : piece.From;
   return Evaluate(curve, share == 1.0 ? domain.Max : domain.Min + share * domain.Length());
-}
-
-std::vector<std::vector<RegionLoop>> ComplementRegions(
-  const ViewLines& lines, const std::vector<std::vector<RegionLoop>>& regions)
-{
-  std::vector<std::vector<RegionLoop>> out(regions.size());
-  for (std::size_t f = 0; f < regions.size(); ++f)
-  {
-    out[f] = Complement(lines.Whole.Data, std::int64_t(f), regions[f]);
-  }
-  return out;
 }
 
 void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions)
@@ -247,16 +124,12 @@ void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>
   });
 }
 
-void DropFlatLoops(const Model& model, std::vector<std::vector<RegionLoop>>& regions)
+void DropFlatLoops(const Model& model, std::int64_t face, std::vector<RegionLoop>& loops)
 {
-  for (std::size_t f = 0; f < regions.size(); ++f)
-  {
-    std::vector<RegionLoop>& loops = regions[f];
-    const auto isFlat = [&](const RegionLoop& loop) {
-      return IsFlat(model, model.Faces[f].Geometry, loop);
-    };
-    loops.erase(std::remove_if(loops.begin(), loops.end(), isFlat), loops.end());
-  }
+  const auto isFlat = [&](const RegionLoop& loop) {
+    return IsFlat(model, model.Faces[face].Geometry, loop);
+  };
+  loops.erase(std::remove_if(loops.begin(), loops.end(), isFlat), loops.end());
 }
 
 } // namespace nurbs

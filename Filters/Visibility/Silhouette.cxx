@@ -457,7 +457,7 @@ Silhouettes MakeSilhouettes(
   }
   if (!options.View.Perspective && place.isZero(0.0))
   {
-    throw Error(std::string("The ") + name + " has no length");
+    throw Error(std::string("The ") + name + " has length zero");
   }
   if (!(options.Precision > 0.0) || !std::isfinite(options.Precision))
   {

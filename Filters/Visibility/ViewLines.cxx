@@ -65,12 +65,6 @@ std::vector<char> FindShells(const ViewLines& lines)
   return out;
 }
 
-bool MayFaceViewer(const FaceSilhouette& face)
-{
-  return face.Patches[int(PatchVisibility::Visible)] + face.Patches[int(PatchVisibility::Partial)] >
-    0;
-}
-
 ViewLine MakeEdgeLine(const ViewLines& lines, std::int64_t edge, const SilhouetteOptions& options)
 {
   const Model& model = lines.Whole.Data;
@@ -419,6 +413,12 @@ bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
   const std::vector<EdgeUse>& uses = lines.Uses[line.Edge];
   return std::any_of(
     uses.begin(), uses.end(), [&](const EdgeUse& use) { return use.Face == face; });
+}
+
+bool MayFaceViewer(const FaceSilhouette& face)
+{
+  return face.Patches[int(PatchVisibility::Visible)] + face.Patches[int(PatchVisibility::Partial)] >
+    0;
 }
 
 Vec3 PointAt(const ViewLine& line, LinePosition at)

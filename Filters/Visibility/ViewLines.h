@@ -67,6 +67,9 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
 /// or where it is pierced.
 bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face);
 
+/// False if all of the face turns away from the viewer, or is seen edge-on.
+bool MayFaceViewer(const FaceSilhouette& face);
+
 /// Point of a line, and its image.
 Vec3 PointAt(const ViewLine& line, LinePosition at);
 Vec2 ImageAt(const ViewLine& line, LinePosition at);

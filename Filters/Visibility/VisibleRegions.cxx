@@ -2,6 +2,7 @@
 #include "VisibleRegions.h"
 
 #include "RegionArea.h"
+#include "RegionCells.h"
 #include "VisibleParts.h"
 
 #include <algorithm>
@@ -79,6 +80,8 @@ private:
   bool MakeLines();
   std::vector<LinePart> PartsInView(double pixel);
   bool MakeMap();
+  void FindShownFaces();
+  void FillFace(const RegionCells& cells, std::int64_t index, TracedRegion traced);
   bool FillFaces();
   bool IsOutline(const ViewLine& line, const LineSource& source, std::int32_t edge) const;
   std::vector<Piece> PiecesOf(std::int64_t line) const;
@@ -91,6 +94,8 @@ private:
   RayCaster Caster;
   ImagePlane Image;
   FrontMap Map;
+  /// One a face: a line of its own is visible, so that it may be, though it may have no cell.
+  std::vector<char> HasShownLine;
   /// For so long, in the image, a smooth edge that runs into a silhouette may be one with it.
   double Touching = 0.0;
   VisibleRegions Out;
@@ -209,30 +214,90 @@ bool IsWhole(const Model& model, std::int64_t index, const std::vector<RegionLoo
   return curves == 0 && !loops.empty();
 }
 
+// A face that is narrower than a pixel has no cell, but its borders are visible, or there is no room
+// beside them.
+void RegionMaker::FindShownFaces()
+{
+  const ViewLines& lines = this->Out.Lines;
+  this->HasShownLine.assign(lines.Whole.Data.Faces.size(), 0);
+  const auto mark = [&](std::int64_t face) {
+    this->HasShownLine[face] |= !lines.IsShell[face] || MayFaceViewer(lines.Faces[face]);
+  };
+  for (std::int32_t edge = 0; edge < std::int32_t(this->Map.Snapped.Edges.size()); ++edge)
+  {
+    const bool isNarrow =
+      this->Map.IsSliver(this->Map.Cell(edge, 0)) || this->Map.IsSliver(this->Map.Cell(edge, 1));
+    for (const LineSource& source : this->Map.SourcesOf(edge))
+    {
+      if (source.Shows == 0 && !source.IsBare && !isNarrow)
+      {
+        continue;
+      }
+      const ViewLine& line = lines.Lines[source.Line];
+      mark(line.Face);
+      if (line.IsIntersection())
+      {
+        mark(line.OtherFace);
+      }
+      for (std::size_t k = 0; line.IsEdge() && k < lines.Uses[line.Edge].size(); ++k)
+      {
+        mark(lines.Uses[line.Edge][k].Face);
+      }
+    }
+  }
+}
+
+// The region of one face, of what was traced in the image.
+void RegionMaker::FillFace(const RegionCells& cells, std::int64_t index, TracedRegion traced)
+{
+  const Model& model = this->Out.Lines.Whole.Data;
+  FaceRegion& face = this->Out.Faces[index];
+  SettledRegions settled;
+  face.IsWhole = IsWhole(model, index, traced.Loops);
+  if (face.IsWhole)
+  {
+    settled.Visible = std::move(traced.Loops);
+  }
+  else if (traced.Loops.empty() && !this->HasShownLine[index])
+  {
+    settled.Hidden = WholeRegion(model, index);
+  }
+  else
+  {
+    settled = cells.Settle(index, traced.Loops, this->Options.HiddenRegions);
+    DropFlatLoops(model, index, settled.Visible);
+    face.IsInexact = traced.Unlifted + settled.Unsettled > 0;
+    face.IsWhole = IsWhole(model, index, settled.Visible);
+  }
+  if (!settled.Visible.empty())
+  {
+    face.Area = RegionArea(model, index, WholeRegion(model, index));
+    face.VisibleArea = face.IsWhole ? face.Area : RegionArea(model, index, settled.Visible);
+  }
+  face.Loops = std::move(this->Options.HiddenRegions ? settled.Hidden : settled.Visible);
+  DropFlatLoops(model, index, face.Loops);
+}
+
 bool RegionMaker::FillFaces()
 {
   const ViewLines& lines = this->Out.Lines;
-  const Model& model = lines.Whole.Data;
-  std::vector<std::vector<RegionLoop>> visible = TraceRegions(lines, this->Image, this->Caster,
-    this->Map, this->Options.Precision, this->Options.BothSides, this->Options.Parallel);
-  DropFlatLoops(model, visible);
-  this->Out.Faces.resize(visible.size());
-  this->Options.Parallel(
-    0, std::int64_t(visible.size()), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t f = begin; f < end; ++f)
-      {
-        FaceRegion& face = this->Out.Faces[f];
-        face.IsWhole = IsWhole(model, f, visible[f]);
-        if (!visible[f].empty())
-        {
-          face.Area = RegionArea(model, f, WholeRegion(model, f));
-          face.VisibleArea = face.IsWhole ? face.Area : RegionArea(model, f, visible[f]);
-        }
-      }
-    });
-  std::vector<std::vector<RegionLoop>> regions =
-    this->Options.HiddenRegions ? ComplementRegions(lines, visible) : std::move(visible);
-  DropFlatLoops(model, regions);
+  std::vector<TracedRegion> traced = TraceRegions(lines, this->Image, this->Caster, this->Map,
+    this->Options.Precision, this->Options.BothSides, this->Options.Parallel);
+  this->Out.Faces.resize(traced.size());
+  this->FindShownFaces();
+  const RegionCells cells(
+    lines, this->Image, this->Caster, this->Options.Precision, this->Options.BothSides);
+  this->Options.Parallel(0, std::int64_t(traced.size()), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f)
+    {
+      this->FillFace(cells, f, std::move(traced[f]));
+    }
+  });
+  std::vector<std::vector<RegionLoop>> regions(this->Out.Faces.size());
+  for (std::size_t f = 0; f < regions.size(); ++f)
+  {
+    regions[f] = std::move(this->Out.Faces[f].Loops);
+  }
   CutAtSharedEnds(lines, regions);
   for (std::size_t f = 0; f < regions.size(); ++f)
   {

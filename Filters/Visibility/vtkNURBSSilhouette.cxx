@@ -15,23 +15,9 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSSilhouette);
-
-namespace
-{
-
-constexpr int MaxNamedFaces = 8; // in the warning
-
-double Now()
-{
-  using namespace std::chrono;
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
 
 struct vtkNURBSSilhouette::Work
 {
@@ -88,7 +74,7 @@ void vtkNURBSSilhouette::Summarize(const Work& work)
       this->NumberOfSingularFaces += face.Status == SilhouetteStatus::Singular;
       this->NumberOfCappedFaces += face.Status == SilhouetteStatus::Capped;
       this->NumberOfFailedFaces += face.Status == SilhouetteStatus::Failed;
-      if (face.Status >= SilhouetteStatus::Capped && ++count <= MaxNamedFaces)
+      if (face.Status >= SilhouetteStatus::Capped && ++count <= MaxNamed)
       {
         named << "\n  face " << vtkNURBSModel::GetFaceId(leaf.Grid, vtkIdType(f - leaf.FirstFace))
               << (face.Status == SilhouetteStatus::Failed ? " failed: " : " capped: ")
@@ -103,9 +89,8 @@ void vtkNURBSSilhouette::Summarize(const Work& work)
     vtkWarningMacro(<< this->NumberOfFailedFaces << " of " << this->NumberOfFaces
                     << " faces have no silhouette, " << this->NumberOfCappedFaces
                     << " have one with gaps:" << named.str()
-                    << (count > MaxNamedFaces
-                           ? "\n  and " + std::to_string(count - MaxNamedFaces) + " more"
-                           : ""));
+                    << (count > MaxNamed ? "\n  and " + std::to_string(count - MaxNamed) + " more"
+                                         : ""));
   }
 }
 
@@ -113,10 +98,9 @@ void vtkNURBSSilhouette::ClearResults()
 {
   this->NumberOfVisiblePatches = this->NumberOfInvisiblePatches = 0;
   this->NumberOfPartialPatches = this->NumberOfEdgeOnPatches = 0;
-  this->NumberOfComponents = this->NumberOfLines = this->NumberOfPoints = 0;
-  this->NumberOfInexactPoints = this->NumberOfFaces = this->NumberOfSingularFaces = 0;
-  this->NumberOfCappedFaces = this->NumberOfFailedFaces = 0;
-  this->Seconds = 0.0;
+  this->NumberOfComponents = this->NumberOfPoints = this->NumberOfInexactPoints = 0;
+  this->NumberOfSingularFaces = this->NumberOfCappedFaces = 0;
+  this->ClearCounts();
 }
 
 int vtkNURBSSilhouette::RequestData(
@@ -182,12 +166,8 @@ void vtkNURBSSilhouette::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPartialPatches: " << this->NumberOfPartialPatches << "\n";
   os << indent << "NumberOfEdgeOnPatches: " << this->NumberOfEdgeOnPatches << "\n";
   os << indent << "NumberOfComponents: " << this->NumberOfComponents << "\n";
-  os << indent << "NumberOfLines: " << this->NumberOfLines << "\n";
   os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";
   os << indent << "NumberOfInexactPoints: " << this->NumberOfInexactPoints << "\n";
-  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
   os << indent << "NumberOfSingularFaces: " << this->NumberOfSingularFaces << "\n";
   os << indent << "NumberOfCappedFaces: " << this->NumberOfCappedFaces << "\n";
-  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
-  os << indent << "Seconds: " << this->Seconds << "\n";
 }

@@ -76,23 +76,19 @@ public:
   ///@{
   /**
    * What the last Update made of all models together: Bezier patches by self-visible type; connected
-   * silhouettes; lines and points of all kinds; points of silhouettes with |normal . view| over 1e-9
-   * (in singular places only); faces by status; seconds. All are 0 before the first Update and after
-   * an error.
+   * silhouettes; points of all kinds; points of silhouettes with |normal . view| over 1e-9 (in singular
+   * places only); faces by status (NumberOfFailedFaces: without lines). All are 0 before the first
+   * Update and after an error.
    */
   vtkGetMacro(NumberOfVisiblePatches, vtkIdType);
   vtkGetMacro(NumberOfInvisiblePatches, vtkIdType);
   vtkGetMacro(NumberOfPartialPatches, vtkIdType);
   vtkGetMacro(NumberOfEdgeOnPatches, vtkIdType);
   vtkGetMacro(NumberOfComponents, vtkIdType);
-  vtkGetMacro(NumberOfLines, vtkIdType);
   vtkGetMacro(NumberOfPoints, vtkIdType);
   vtkGetMacro(NumberOfInexactPoints, vtkIdType);
-  vtkGetMacro(NumberOfFaces, vtkIdType);
   vtkGetMacro(NumberOfSingularFaces, vtkIdType);
   vtkGetMacro(NumberOfCappedFaces, vtkIdType);
-  vtkGetMacro(NumberOfFailedFaces, vtkIdType);
-  vtkGetMacro(Seconds, double);
   ///@}
 
 protected:
@@ -118,14 +114,10 @@ private:
   vtkIdType NumberOfPartialPatches = 0;
   vtkIdType NumberOfEdgeOnPatches = 0;
   vtkIdType NumberOfComponents = 0;
-  vtkIdType NumberOfLines = 0;
   vtkIdType NumberOfPoints = 0;
   vtkIdType NumberOfInexactPoints = 0;
-  vtkIdType NumberOfFaces = 0;
   vtkIdType NumberOfSingularFaces = 0;
   vtkIdType NumberOfCappedFaces = 0;
-  vtkIdType NumberOfFailedFaces = 0;
-  double Seconds = 0.0;
 };
 
 #endif

@@ -10,6 +10,7 @@
 #include "vtkNURBSParallel.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -101,6 +102,18 @@ bool vtkNURBSViewAlgorithm::IsQuick(const vtkNURBSModelPool& pool)
   return pool.Model.Faces.size() <= QuickFaces && points <= QuickPoints;
 }
 
+double vtkNURBSViewAlgorithm::Now()
+{
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+void vtkNURBSViewAlgorithm::ClearCounts()
+{
+  this->NumberOfFaces = this->NumberOfFailedFaces = this->NumberOfLines = 0;
+  this->Seconds = 0.0;
+}
+
 void vtkNURBSViewAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -119,4 +132,8 @@ void vtkNURBSViewAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BoundaryEdges: " << this->BoundaryEdges << "\n";
   os << indent << "SharpEdges: " << this->SharpEdges << "\n";
   os << indent << "SmoothEdges: " << this->SmoothEdges << "\n";
+  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
+  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "NumberOfLines: " << this->NumberOfLines << "\n";
+  os << indent << "Seconds: " << this->Seconds << "\n";
 }

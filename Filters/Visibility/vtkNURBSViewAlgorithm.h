@@ -125,6 +125,17 @@ public:
   vtkBooleanMacro(SmoothEdges, bool);
   ///@}
 
+  ///@{
+  /**
+   * Of the last Update: faces; those that have no lines, or lines with gaps; lines of all outputs;
+   * seconds. All are 0 before the first Update and after an error.
+   */
+  vtkGetMacro(NumberOfFaces, vtkIdType);
+  vtkGetMacro(NumberOfFailedFaces, vtkIdType);
+  vtkGetMacro(NumberOfLines, vtkIdType);
+  vtkGetMacro(Seconds, double);
+  ///@}
+
   /**
    * Includes the camera's.
    */
@@ -146,6 +157,16 @@ protected:
   static std::vector<int> PartsOf(const vtkNURBSModelPool& pool);
   /// True for models that take no time worth a report of progress.
   static bool IsQuick(const vtkNURBSModelPool& pool);
+  /// A clock, in seconds.
+  static double Now();
+  void ClearCounts();
+
+  static constexpr int MaxNamed = 8; ///< Faces and pairs in a warning.
+
+  vtkIdType NumberOfFaces = 0;
+  vtkIdType NumberOfFailedFaces = 0;
+  vtkIdType NumberOfLines = 0;
+  double Seconds = 0.0;
 
 private:
   vtkNURBSViewAlgorithm(const vtkNURBSViewAlgorithm&) = delete;

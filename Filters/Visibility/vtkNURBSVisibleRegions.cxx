@@ -15,23 +15,9 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSVisibleRegions);
-
-namespace
-{
-
-constexpr int MaxNamed = 8; // in the warnings
-
-double Now()
-{
-  using namespace std::chrono;
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
 
 struct vtkNURBSVisibleRegions::Work
 {
@@ -116,6 +102,7 @@ void vtkNURBSVisibleRegions::Summarize(const Work& work)
     this->NumberOfVisibleFaces += face.IsWhole;
     this->NumberOfPartialFaces += isSeen && !face.IsWhole;
     this->NumberOfHiddenFaces += !isSeen;
+    this->NumberOfInexactFaces += face.IsInexact;
   }
   this->NumberOfCells = vtkIdType(work.Result.Cells);
   this->NumberOfPiercingPairs = vtkIdType(work.Result.Piercing.size());
@@ -141,11 +128,11 @@ void vtkNURBSVisibleRegions::Summarize(const Work& work)
 
 void vtkNURBSVisibleRegions::ClearResults()
 {
-  this->NumberOfFaces = this->NumberOfVisibleFaces = this->NumberOfPartialFaces = 0;
-  this->NumberOfHiddenFaces = this->NumberOfFailedFaces = 0;
-  this->NumberOfLines = this->NumberOfVisibleLines = 0;
+  this->NumberOfVisibleFaces = this->NumberOfPartialFaces = this->NumberOfHiddenFaces = 0;
+  this->NumberOfInexactFaces = this->NumberOfVisibleLines = 0;
   this->NumberOfCells = this->NumberOfPiercingPairs = 0;
-  this->VisibleArea = this->Seconds = 0.0;
+  this->VisibleArea = 0.0;
+  this->ClearCounts();
 }
 
 void vtkNURBSVisibleRegions::FillOutputs(
@@ -230,15 +217,12 @@ void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HiddenLines: " << this->HiddenLines << "\n";
   os << indent << "ProjectLines: " << this->ProjectLines << "\n";
   os << indent << "Clustering: " << this->Clustering << "\n";
-  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
   os << indent << "NumberOfVisibleFaces: " << this->NumberOfVisibleFaces << "\n";
   os << indent << "NumberOfPartialFaces: " << this->NumberOfPartialFaces << "\n";
   os << indent << "NumberOfHiddenFaces: " << this->NumberOfHiddenFaces << "\n";
-  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "NumberOfInexactFaces: " << this->NumberOfInexactFaces << "\n";
   os << indent << "VisibleArea: " << this->VisibleArea << "\n";
-  os << indent << "NumberOfLines: " << this->NumberOfLines << "\n";
   os << indent << "NumberOfVisibleLines: " << this->NumberOfVisibleLines << "\n";
   os << indent << "NumberOfCells: " << this->NumberOfCells << "\n";
   os << indent << "NumberOfPiercingPairs: " << this->NumberOfPiercingPairs << "\n";
-  os << indent << "Seconds: " << this->Seconds << "\n";
 }

@@ -142,21 +142,19 @@ public:
 
   ///@{
   /**
-   * Of the last Update: faces; those that are visible as a whole, in part, and not at all; that can't be
-   * used; the visible area; lines and how many of them are visible; cells of the planar map; pairs of
-   * faces that pierce each other; seconds. All are 0 before the first Update and after an error.
+   * Of the last Update: faces that are visible as a whole, in part, and not at all; those of whose
+   * region a part of the border was not found, and is right about only; the visible area; visible
+   * lines; cells of the planar map; pairs of faces that pierce each other. All are 0 before the first
+   * Update and after an error.
    */
-  vtkGetMacro(NumberOfFaces, vtkIdType);
   vtkGetMacro(NumberOfVisibleFaces, vtkIdType);
   vtkGetMacro(NumberOfPartialFaces, vtkIdType);
   vtkGetMacro(NumberOfHiddenFaces, vtkIdType);
-  vtkGetMacro(NumberOfFailedFaces, vtkIdType);
+  vtkGetMacro(NumberOfInexactFaces, vtkIdType);
   vtkGetMacro(VisibleArea, double);
-  vtkGetMacro(NumberOfLines, vtkIdType);
   vtkGetMacro(NumberOfVisibleLines, vtkIdType);
   vtkGetMacro(NumberOfCells, vtkIdType);
   vtkGetMacro(NumberOfPiercingPairs, vtkIdType);
-  vtkGetMacro(Seconds, double);
   ///@}
 
   ///@{
@@ -194,17 +192,14 @@ private:
   bool ProjectLines = false;
   bool Clustering = false;
 
-  vtkIdType NumberOfFaces = 0;
   vtkIdType NumberOfVisibleFaces = 0;
   vtkIdType NumberOfPartialFaces = 0;
   vtkIdType NumberOfHiddenFaces = 0;
-  vtkIdType NumberOfFailedFaces = 0;
+  vtkIdType NumberOfInexactFaces = 0;
   double VisibleArea = 0.0;
-  vtkIdType NumberOfLines = 0;
   vtkIdType NumberOfVisibleLines = 0;
   vtkIdType NumberOfCells = 0;
   vtkIdType NumberOfPiercingPairs = 0;
-  double Seconds = 0.0;
 };
 
 #endif

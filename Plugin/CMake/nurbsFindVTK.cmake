@@ -24,6 +24,7 @@ set(nurbs_vtk_components
   IOImage
   IOLegacy
   IOPLY
+  IOParallelXML
   IOXML
   InteractionStyle
   InteractionWidgets

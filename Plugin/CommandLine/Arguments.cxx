@@ -42,9 +42,12 @@ const char* const Examples = R"(Examples:
   vtknurbs visible linkrods.step -o seen.vtu --view top
       What is visible from above, as trimmed surfaces again.
 
+  vtknurbs convert linkrods.step -o linkrods.iges
+      The same surfaces in another CAD format.
+
 'vtknurbs COMMAND --help' tells the options of a command.
 Returns 0 if all went well, 1 after an error, 2 if the command line is wrong, 3 if --strict found
-a face that failed or misses the tolerance, or an open edge.)";
+a face that failed, is not valid or misses the tolerance, or an open or torn edge.)";
 
 const char* const TessellateExamples = R"(Formats, by the ending of -o:
   .vtp .vtu   VTK: normals, parameters, FaceId, names, colours, error of each face
@@ -90,8 +93,21 @@ visible are left out. Arrays of its faces: VisibleArea, VisibleFraction. Views a
 
 Examples:
   vtknurbs visible gear.step -o seen.vtu --view front
+  vtknurbs visible gear.step -o seen.step --view 1,-2,0.5
   vtknurbs visible gear.step -o unseen.vtu --view 1,-2,0.5 --hidden-regions
   vtknurbs tessellate seen.vtu -o seen.stl)";
+
+const char* const ConvertExamples = R"(Formats, by the ending of -o:
+  .step .stp   STEP AP214: assembly tree, names, colours, unit
+  .iges .igs   IGES solids and shells: colours, unit
+  .brep .brp   OpenCASCADE's own: geometry in millimetres
+  .vtu .vtpc   VTK: all arrays; one model, or an assembly
+  Surfaces keep their degrees, knots and weights. Faces that share edges are sewn, and what is closed
+  becomes a solid.
+
+Examples:
+  vtknurbs convert gear.iges -o gear.step
+  vtknurbs convert deformed.vtu -o deformed.step --gap 1e-3 --strict)";
 
 const std::map<std::string, Page> Pages = { { "tight", Page::Tight }, { "a4", Page::A4 },
   { "a3", Page::A3 }, { "a2", Page::A2 }, { "a1", Page::A1 }, { "a0", Page::A0 } };
@@ -150,6 +166,10 @@ std::array<double, 3> ParseView(const std::string& text)
 {
   const auto named = Views.find(text);
   std::array<double, 3> view = { 0, 0, 0 };
+  if (named == Views.end() && ReadVector(text, view) && view == std::array<double, 3>{ 0, 0, 0 })
+  {
+    throw CLI::ValidationError("--view", "the direction '" + text + "' has length zero");
+  }
   if (named == Views.end() && !ReadDirection(text, view))
   {
     throw CLI::ValidationError(
@@ -423,7 +443,7 @@ void AddVisible(CLI::App& app, Arguments& arguments)
 {
   CLI::App* command = app.add_subcommand("visible", "cut out what of a model's faces is visible");
   AddModel(command, arguments);
-  command->add_option("-o,--output", arguments.Output, "model to write (.vtu)")
+  command->add_option("-o,--output", arguments.Output, "model to write (.vtu, or a CAD file)")
     ->type_name("FILE")
     ->required();
   AddViewing(command, arguments);
@@ -432,6 +452,27 @@ void AddVisible(CLI::App& app, Arguments& arguments)
   command->group("Commands");
   command->footer(VisibleExamples);
   command->parse_complete_callback([&arguments] { arguments.What = Command::Visible; });
+}
+
+void AddConvert(CLI::App& app, Arguments& arguments)
+{
+  CLI::App* command =
+    app.add_subcommand("convert", "write a model's surfaces to another CAD format");
+  AddModel(command, arguments);
+  command->add_option("-o,--output", arguments.Output, "model to write; its ending is the format")
+    ->type_name("FILE")
+    ->required();
+  command
+    ->add_option("--gap", arguments.Gap,
+      "how far apart faces may be that share an edge, as a part of the model's diagonal; default "
+      "1e-4")
+    ->type_name("G")
+    ->check(Positive());
+  command->add_flag(
+    "--strict", arguments.Strict, "return 3 if a face failed or is not valid, or an edge is torn");
+  command->group("Commands");
+  command->footer(ConvertExamples);
+  command->parse_complete_callback([&arguments] { arguments.What = Command::Convert; });
 }
 
 // CLI11's help with usage lines that can be copied, and options without their validators.
@@ -498,6 +539,7 @@ bool Parse(int argc, char** argv, Arguments& arguments, int& exitCode)
   AddRender(app, arguments);
   AddDrawing(app, arguments);
   AddVisible(app, arguments);
+  AddConvert(app, arguments);
   try
   {
     app.parse(argc, argv);

@@ -16,7 +16,8 @@ enum class Command
   Tessellate,
   Render,
   Drawing,
-  Visible
+  Visible,
+  Convert
 };
 
 enum class ToleranceKind
@@ -96,6 +97,8 @@ struct Arguments
   double Scale = 0.0; ///< paper by model; 0: as large as fits
   Page Sheet = Page::Tight;
   Lie Orientation = Lie::Automatic;
+
+  double Gap = 1e-4; ///< of faces that share an edge, of the model's diagonal
 };
 
 /// Parse. True if there is something to run; otherwise `exitCode` is what the process returns, and

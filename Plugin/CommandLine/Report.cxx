@@ -54,6 +54,19 @@ void WriteReport(const Report& report, const std::string& path)
     json["straight_lines"] = report.StraightLines;
     json["scale"] = report.Scale;
   }
+  if (report.Converted)
+  {
+    json["written_faces"] = report.WrittenFaces;
+    json["lost_faces"] = report.LostFaces;
+    json["invalid_faces"] = report.InvalidFaces;
+    json["solids"] = report.Solids;
+    json["shells"] = report.Shells;
+    json["shared_edges"] = report.SharedEdges;
+    json["computed_edges"] = report.ComputedEdges;
+    json["torn_edges"] = report.TornEdges;
+    json["edge_tolerance"] = report.EdgeTolerance;
+    json["seconds"]["write"] = report.WriteSeconds;
+  }
   json["problems"] = report.Problems;
   std::ofstream file(path);
   file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -46,6 +46,17 @@ struct Report
   std::int64_t StraightLines = 0;
   double Scale = 0.0; ///< millimetres of paper by Unit
 
+  bool Converted = false; ///< whether the figures from here to EdgeTolerance say anything
+  std::int64_t WrittenFaces = 0;
+  std::int64_t LostFaces = 0;    ///< that could not be written
+  std::int64_t InvalidFaces = 0; ///< that OpenCASCADE's check finds fault with
+  std::int64_t Solids = 0;
+  std::int64_t Shells = 0; ///< that are no part of a solid
+  std::int64_t SharedEdges = 0;
+  std::int64_t ComputedEdges = 0; ///< whose curve is not the model's
+  std::int64_t TornEdges = 0;     ///< whose faces are too far apart
+  double EdgeTolerance = 0.0;     ///< the largest, in Unit
+
   double ReadSeconds = 0.0;
   double TessellateSeconds = 0.0;
   double VisibilitySeconds = 0.0;

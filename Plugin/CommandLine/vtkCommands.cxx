@@ -4,6 +4,7 @@
 #include "Failure.h"
 #include "ProgressBar.h"
 #include "Report.h"
+#include "vtkConvertModel.h"
 #include "vtkDescribeModel.h"
 #include "vtkDrawModel.h"
 #include "vtkMessages.h"
@@ -112,7 +113,8 @@ public:
     this->PrintWarnings();
     const Report& figures = this->Figures;
     const bool complaint =
-      figures.Unconverted + figures.FailedFaces + figures.CappedFaces + figures.OpenEdges > 0;
+      figures.Unconverted + figures.FailedFaces + figures.CappedFaces + figures.OpenEdges > 0 ||
+      figures.LostFaces + figures.InvalidFaces + figures.TornEdges > 0;
     return this->Options.Strict && complaint ? ExitStrict : ExitSuccess;
   }
 
@@ -275,10 +277,57 @@ int ViewCommand(const Arguments& arguments)
   const auto model = session.Read(true, 0.4);
   session.Examine(model);
   const auto seen = LookAt(model, arguments, session.Phase(0.4, 0.9), session.Figures);
-  session.Phase(0.9, 1.0);
-  WriteView(seen, arguments, session.Figures);
+  WriteView(seen, arguments, session.Phase(0.9, 1.0), session.Figures);
   const int exitCode = session.Finish();
   PrintViewSummary(session);
+  return exitCode;
+}
+
+void PrintConversion(const Session& session)
+{
+  const Report& figures = session.Figures;
+  if (session.Options.Quiet)
+  {
+    return;
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << session.Options.Output << ": ";
+  if (figures.Converted)
+  {
+    text << figures.WrittenFaces << " faces, " << figures.Solids
+         << (figures.Solids == 1 ? " solid, " : " solids, ") << figures.Shells
+         << (figures.Shells == 1 ? " shell, " : " shells, ") << figures.SharedEdges
+         << " shared edges, edge tolerance at most " << figures.EdgeTolerance
+         << (figures.Unit.empty() ? "" : " ") << figures.Unit;
+  }
+  else
+  {
+    text << figures.Faces << " faces";
+  }
+  const auto mention = [&text](std::int64_t count, const char* what) {
+    if (count > 0)
+    {
+      text << ", " << count << what;
+    }
+  };
+  mention(figures.ComputedEdges, " edge curves computed");
+  mention(figures.TornEdges, " edges torn");
+  mention(figures.InvalidFaces, " faces not valid");
+  mention(figures.LostFaces + figures.Unconverted, " faces failed");
+  text << " (read " << figures.ReadSeconds << " s, write " << figures.WriteSeconds << " s)";
+  std::cout << text.str() << "\n";
+}
+
+int ConvertCommand(const Arguments& arguments)
+{
+  CheckModelPath(arguments.Output);
+  Session session(arguments);
+  const auto model = session.Read(Ending(arguments.Output) == ".vtu", 0.6);
+  session.Examine(model);
+  WriteModel(model, arguments, session.Phase(0.6, 1.0), session.Figures);
+  const int exitCode = session.Finish();
+  PrintConversion(session);
   return exitCode;
 }
 
@@ -295,6 +344,8 @@ int Execute(const Arguments& arguments)
       return TessellateCommand(arguments);
     case Command::Render:
       return RenderCommand(arguments);
+    case Command::Convert:
+      return ConvertCommand(arguments);
     case Command::Drawing:
     case Command::Visible:
       break;

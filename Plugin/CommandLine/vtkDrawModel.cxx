@@ -4,6 +4,7 @@
 #include "Arguments.h"
 #include "Failure.h"
 #include "Report.h"
+#include "vtkConvertModel.h"
 #include "vtkMessages.h"
 #include "vtkWriteMesh.h"
 
@@ -15,7 +16,6 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLPolyDataWriter.h"
-#include "vtkXMLUnstructuredGridWriter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -83,11 +83,10 @@ void Fill(vtkNURBSVisibleRegions* regions, Report& report)
   report.VisibleLines = regions->GetNumberOfVisibleLines();
 }
 
-template <typename Writer>
-void WriteData(vtkDataObject* data, const std::string& path)
+void WriteLines(vtkPolyData* lines, const std::string& path)
 {
-  vtkNew<Writer> writer;
-  writer->SetInputDataObject(data);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputDataObject(lines);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetFileName(path.c_str());
@@ -131,10 +130,11 @@ void CheckViewPath(const Arguments& arguments)
 {
   const std::string ending = Ending(arguments.Output);
   const bool drawing = arguments.What == Command::Drawing;
-  if (drawing ? !IsVectorFormat(arguments.Output) && ending != ".vtp" : ending != ".vtu")
+  if (drawing ? !IsVectorFormat(arguments.Output) && ending != ".vtp"
+              : ending != ".vtu" && !IsCADPath(arguments.Output))
   {
     throw Failure("cannot write " + arguments.Output + ": " +
-      (drawing ? "drawings are .svg, .pdf or .vtp" : "models are .vtu"));
+      (drawing ? "drawings are .svg, .pdf or .vtp" : "models are .vtu, .step, .iges or .brep"));
   }
   CheckWritable(arguments.Output);
 }
@@ -168,7 +168,8 @@ vtkSmartPointer<vtkDataObject> LookAt(vtkDataObject* model, const Arguments& arg
 }
 
 //--------------------------------------------------------------------------------------------------
-void WriteView(vtkDataObject* data, const Arguments& arguments, Report& report)
+void WriteView(
+  vtkDataObject* data, const Arguments& arguments, const ProgressFunction& progress, Report& report)
 {
   const auto started = std::chrono::steady_clock::now();
   if (IsVectorFormat(arguments.Output))
@@ -177,11 +178,11 @@ void WriteView(vtkDataObject* data, const Arguments& arguments, Report& report)
   }
   else if (Ending(arguments.Output) == ".vtp")
   {
-    WriteData<vtkXMLPolyDataWriter>(Joined(data), arguments.Output);
+    WriteLines(Joined(data), arguments.Output);
   }
   else
   {
-    WriteData<vtkXMLUnstructuredGridWriter>(data, arguments.Output);
+    WriteModel(data, arguments, progress, report);
   }
   report.WriteSeconds =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

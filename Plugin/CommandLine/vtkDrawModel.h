@@ -24,7 +24,8 @@ vtkSmartPointer<vtkDataObject> LookAt(vtkDataObject* model, const Arguments& arg
 
 /// Writes what LookAt gave, and fills in the report's figures of it. Throws Failure if the file
 /// cannot be written.
-void WriteView(vtkDataObject* data, const Arguments& arguments, Report& report);
+void WriteView(vtkDataObject* data, const Arguments& arguments, const ProgressFunction& progress,
+  Report& report);
 
 } // namespace nurbs
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <random>
 
 namespace truth
@@ -15,6 +14,8 @@ using nurbs::Vec3;
 namespace
 {
 
+/// Of the size: surfaces that are nearer to each other are at the same place.
+constexpr double SamePlace = 1e-6;
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 void ChooseAxes(ImageView& view)
@@ -64,6 +65,7 @@ void Merge(const RegionCheck& part, RegionCheck& all, std::size_t list)
   all.Narrow += part.Narrow;
   all.Near += part.Near;
   all.Wrong += part.Wrong;
+  all.Coincident += part.Coincident;
   all.MissedFaces += part.MissedFaces;
   all.Worst = std::max(all.Worst, part.Worst);
   for (std::size_t k = 0; k < part.List.size() && all.List.size() < list; ++k)
@@ -136,6 +138,52 @@ RegionTruth::RegionTruth(const nurbs::RayCaster& caster, const nurbs::Model& reg
     this->AddBorder(regions.Faces[f], this->Borders[sources[f]]);
   }
   this->SortSegments();
+  const nurbs::Model& model = caster.GetModel();
+  for (const nurbs::Face& face : model.Faces)
+  {
+    double largest = 0.0;
+    for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
+    {
+      const nurbs::TrimLoop& loop = model.Loops[l];
+      for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
+      {
+        const std::int64_t edge = model.TrimCurves[c].Edge;
+        largest = edge < 0 ? largest : std::max(largest, model.Edges[edge].Tolerance);
+      }
+    }
+    this->Tolerances.push_back(largest);
+  }
+}
+
+bool RegionTruth::IsCoincident(const nurbs::RayHit& hit) const
+{
+  const nurbs::RayCaster* caster = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(this->OthersMutex);
+    std::unique_ptr<Others>& others = this->OthersOf[hit.Face];
+    if (!others)
+    {
+      others = std::make_unique<Others>();
+      others->Model = this->Caster.GetModel();
+      others->Model.Faces[hit.Face].Geometry = nurbs::SurfaceView();
+      others->Caster = std::make_unique<nurbs::RayCaster>(others->Model);
+    }
+    caster = others->Caster.get();
+  }
+  nurbs::Ray ray;
+  ray.Origin = hit.Point;
+  ray.Direction = this->View.Perspective ? Vec3((hit.Point - this->View.Eye).normalized())
+                                         : Vec3(-this->View.Toward);
+  const double size = this->Caster.Bounds().diagonal().norm();
+  const double widest = *std::max_element(this->Tolerances.begin(), this->Tolerances.end());
+  ray.Min = -std::max(SamePlace * size, 2.0 * widest);
+  ray.Max = -ray.Min;
+  std::vector<nurbs::RayHit> hits;
+  caster->All(ray, hits);
+  return std::any_of(hits.begin(), hits.end(), [&](const nurbs::RayHit& other) {
+    const double tolerance = std::max(this->Tolerances[hit.Face], this->Tolerances[other.Face]);
+    return std::abs(other.T) <= std::max(SamePlace * size, 2.0 * tolerance);
+  });
 }
 
 void RegionTruth::SortSegments()
@@ -252,6 +300,11 @@ void RegionTruth::Judge(
   if (this->IsBesideAnyBorder(hit.Point))
   {
     ++check.Narrow;
+    return;
+  }
+  if (this->IsCoincident(hit))
+  {
+    ++check.Coincident;
     return;
   }
   ++(distance <= 10.0 * this->Precision ? check.Near : check.Wrong);

@@ -11,6 +11,8 @@
 #include "RayCaster.h"
 
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <unordered_map>
 
 namespace truth
@@ -53,11 +55,15 @@ struct Disagreement
 struct RegionCheck
 {
   std::int64_t Rays = 0, Hits = 0;
-  std::int64_t Agree = 0;       ///< Hits.
-  std::int64_t Within = 0;      ///< Hits that disagree within the precision of a border.
-  std::int64_t Narrow = 0;      ///< Those within the precision of a border of another face only.
-  std::int64_t Near = 0;        ///< Those within ten times the precision of a border of their face.
-  std::int64_t Wrong = 0;       ///< All others.
+  std::int64_t Agree = 0;  ///< Hits.
+  std::int64_t Within = 0; ///< Hits that disagree within the precision of a border.
+  std::int64_t Narrow = 0; ///< Those within the precision of a border of another face only.
+  std::int64_t Near = 0;   ///< Those within ten times the precision of a border of their face.
+  std::int64_t Wrong = 0;  ///< All others.
+  /// Neither near nor wrong: beyond the precision, but another face lies at the same place, to a
+  /// millionth of the size or twice the tolerance of the edges of either. Which one is in front is
+  /// not told by such a file.
+  std::int64_t Coincident = 0;
   std::int64_t MissedFaces = 0; ///< Wrong hits on faces that have no region at all.
   double Worst = 0.0; ///< The largest finite distance of a disagreement, over the precision.
   std::vector<Disagreement> List; ///< Of Near and Wrong, some.
@@ -87,6 +93,7 @@ private:
   };
   void AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const;
   void Judge(const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const;
+  bool IsCoincident(const nurbs::RayHit& hit) const;
   double DistanceToBorder(std::int64_t face, const nurbs::Vec3& point) const;
   bool IsBesideAnyBorder(const nurbs::Vec3& point) const;
   void SortSegments();
@@ -103,6 +110,15 @@ private:
   /// All segments by the cells of a grid over the image that they may be within the precision of.
   double Cell = 1.0;
   std::unordered_map<std::int64_t, std::vector<const Segment*>> Cells;
+  std::vector<double> Tolerances; ///< The largest of a face's edges, one a face.
+  /// The model without one of its faces, by that face.
+  struct Others
+  {
+    nurbs::Model Model;
+    std::unique_ptr<nurbs::RayCaster> Caster;
+  };
+  mutable std::mutex OthersMutex;
+  mutable std::unordered_map<std::int64_t, std::unique_ptr<Others>> OthersOf;
 };
 
 } // namespace truth

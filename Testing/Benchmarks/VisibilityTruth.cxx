@@ -2,7 +2,8 @@
 // vtkNURBSVisibleRegions against rays: VisibilityTruth FILE | --shape NAME [--view x,y,z]...
 // One line a view: hits that agree; that disagree within the precision of a border of their face's
 // regions (in the image, as seen there); of a border of any face's ("narrow": what is narrower than
-// the precision may be left out); "near", within ten times the precision; and "wrong", all others;
+// the precision may be left out); "coincident" where another face lies at the same place, within the
+// file's tolerance; "near", within ten times the precision; and "wrong", all others;
 // "missed" are those on faces without a region, "worst" is the largest distance in precisions. Exit
 // status 3 if there is a near or wrong one, or an output face with an error. With --area T the visible
 // area of closed solids by rays (AreaByLines.h, to T of it) beside the sum of VisibleArea. See --help.
@@ -161,6 +162,7 @@ public:
     filter->Update();
     result["seconds"] = watch.Read().Elapsed;
     result["piercing"] = filter->GetNumberOfPiercingPairs();
+    result["inexact"] = filter->GetNumberOfInexactFaces();
     vtkNURBSModelPool regions;
     const std::string problem = regions.Collect(filter->GetOutputDataObject(0));
     if (!problem.empty())
@@ -201,8 +203,9 @@ private:
       static_cast<std::int64_t>(this->Given.Rays), static_cast<std::size_t>(this->Given.List));
     result.update({ { "regions", sources.size() }, { "rays", check.Rays }, { "hits", check.Hits },
       { "agree", check.Agree }, { "within", check.Within }, { "narrow", check.Narrow },
-      { "near", check.Near }, { "wrong", check.Wrong }, { "missed", check.MissedFaces },
-      { "worst", check.Worst }, { "checking", watch.Read().Elapsed } });
+      { "coincident", check.Coincident }, { "near", check.Near }, { "wrong", check.Wrong },
+      { "missed", check.MissedFaces }, { "worst", check.Worst },
+      { "checking", watch.Read().Elapsed } });
     for (const truth::Disagreement& one : check.List)
     {
       char text[200];
@@ -243,9 +246,9 @@ private:
       ? std::filesystem::path(this->Given.File).filename().string()
       : this->Given.Shape;
     std::printf("%-24s", model.c_str());
-    for (const char* key : { "eye", "view", "faces", "regions", "seconds", "piercing", "rays",
-           "hits", "agree", "within", "narrow", "near", "wrong", "missed", "worst", "checking",
-           "area", "area_by_rays", "area_coarse", "area_off" })
+    for (const char* key : { "eye", "view", "faces", "regions", "seconds", "piercing", "inexact",
+           "rays", "hits", "agree", "within", "narrow", "coincident", "near", "wrong", "missed",
+           "worst", "checking", "area", "area_by_rays", "area_coarse", "area_off" })
     {
       if (result.contains(key))
       {

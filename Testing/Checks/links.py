@@ -54,6 +54,11 @@ def check_pages():
                 dead.append(f"{page.relative_to(ROOT)}: {link} is not there")
             elif anchor and anchor not in anchors(file):
                 dead.append(f"{page.relative_to(ROOT)}: {link} names no heading")
+        # The site's navigation is made of these links.
+        if page.name == "README.md" and page.parent.parent == ROOT / "Documentation":
+            linked = {file for _, file, _ in targets(page)}
+            for other in sorted(set(page.parent.glob("*.md")) - linked - {page}):
+                dead.append(f"{page.relative_to(ROOT)}: has no link to {other.name}")
     return dead, f"{count} links of {len(pages())} pages"
 
 

@@ -115,7 +115,7 @@ class Help(unittest.TestCase):
     def test_help_shows_commands_and_examples(self):
         out, err = tool("--help")
         self.assertEqual(err, "")
-        commands = ("info", "tessellate", "render", "drawing", "visible")
+        commands = ("info", "tessellate", "render", "drawing", "visible", "convert")
         for word in (*commands, "Examples:", "Usage: vtknurbs COMMAND"):
             self.assertIn(word, out)
         for command in commands:
@@ -587,6 +587,7 @@ class BadInput(Folder):
             (("render", SCREW, "-o", "p.png", "--pixels", "1", "--absolute", "1"), "excludes"),
             (("drawing", SCREW), "--output is required"),
             (("drawing", SCREW, "-o", "d.svg", "--view", "fore"), "neither a view's name"),
+            (("drawing", SCREW, "-o", "d.svg", "--view", "0,0,0"), "has length zero"),
             (("drawing", SCREW, "-o", "d.svg", "--view", "top", "--eye", "1,2,3"), "excludes"),
             (("drawing", SCREW, "-o", "d.svg", "--up", "0,0,0"), "--up"),
             (("drawing", SCREW, "-o", "d.svg", "--scale", "1:0"), "--scale"),

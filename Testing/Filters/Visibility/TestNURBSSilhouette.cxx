@@ -393,7 +393,7 @@ TEST(NURBSSilhouette, BadInputIsTold)
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   filter->SetDirection(0, 0, 0);
-  EXPECT_TRUE(says("direction to the viewer has no length"));
+  EXPECT_TRUE(says("direction to the viewer has length zero"));
   filter->SetDirection(0, nan, 0);
   EXPECT_TRUE(says("direction to the viewer is not finite"));
   filter->SetProjectionToPerspective();

@@ -73,7 +73,7 @@ TEST(NURBSVisibleRegionsInput, DirectionsThatAreNone)
   c.Run(Shape(vtkNURBSShapeSource::SPHERE), 0, 0, 1);
   EXPECT_GT(c.Filter->GetNumberOfLines(), 0);
   c.Filter->SetDirection(0, 0, 0);
-  EXPECT_TRUE(c.Fails("direction to the viewer has no length")) << c.Errors->Text;
+  EXPECT_TRUE(c.Fails("direction to the viewer has length zero")) << c.Errors->Text;
   c.Filter->SetDirection(0, NaN, 0);
   EXPECT_TRUE(c.Fails("direction to the viewer is not finite")) << c.Errors->Text;
   c.Filter->SetDirection(0, 1, -Infinity);
@@ -242,11 +242,14 @@ TEST(NURBSVisibleRegionsInput, PlanesSeenEdgeOn)
   nurbs::ModelBuilder builder;
   AddQuad(builder, { 0, 0, 0 }, { 3, 0, 0 }, { 0, 2, 0 }, { 3, 2, 0 });
   auto plane = Grid(builder);
-  const double views[][3] = { { 1, 0, 0 }, { 0, -1, 0 }, { 1, 1, 0 }, { -0.3, 0.7, 0 } };
+  // Of its outline, 3 by 2, the sides towards the viewer are visible.
+  const double views[][4] = { { 1, 0, 0, 2 }, { 0, -1, 0, 3 }, { 1, 1, 0, 5 },
+    { -0.3, 0.7, 0, 5 } };
   for (const auto& view : views)
   {
     Case c;
     c.Run(plane, view[0], view[1], view[2]);
+    EXPECT_NEAR(c.Length(1), view[3], 1e-2) << view[0] << " " << view[1];
     EXPECT_EQ(c.Errors->Text, "");
     EXPECT_EQ(c.Warnings->Text, "");
     EXPECT_EQ(Models(c.Filter)->GetNumberOfCells(), 0);

@@ -78,6 +78,57 @@ inline double ImageDistance(const std::vector<std::vector<Vec2>>& lines, const V
   return least;
 }
 
+/// How many pairs of segments of a face's loops cross each other in its domain, away from their ends.
+/// Trim curves are 64 chords each: only exact if they are straight.
+inline int CountCrossings(const VisibleRegions& result)
+{
+  const Model& model = result.Lines.Whole.Data;
+  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    const Vec2 along = b - a;
+    const Vec2 to = p - a;
+    const double cross = along[0] * to[1] - along[1] * to[0];
+    return std::abs(cross) <= 1e-8 * along.norm() ? 0 : (cross > 0.0 ? 1 : -1);
+  };
+  int out = 0;
+  for (std::size_t f = 0; f < result.Faces.size(); ++f)
+  {
+    const nurbs::Interval u = model.Faces[f].Geometry.Domain(0);
+    const nurbs::Interval v = model.Faces[f].Geometry.Domain(1);
+    std::vector<std::array<Vec2, 2>> segments;
+    for (const nurbs::RegionLoop& loop : result.Faces[f].Loops)
+    {
+      for (const nurbs::RegionPiece& piece : loop)
+      {
+        std::vector<Vec2> line = piece.Polyline;
+        nurbs::RegionPiece part = piece;
+        for (int k = 0; piece.Curve >= 0 && k <= 64; ++k)
+        {
+          part.To = piece.From + k / 64.0 * (piece.To - piece.From);
+          line.push_back(nurbs::EndOfPiece(model, part, true));
+        }
+        for (Vec2& p : line)
+        {
+          p = p.cwiseQuotient(Vec2(u.Length(), v.Length()));
+        }
+        for (std::size_t k = 1; k < line.size(); ++k)
+        {
+          segments.push_back({ line[k - 1], line[k] });
+        }
+      }
+    }
+    for (std::size_t a = 0; a < segments.size(); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        const auto& [p, q] = segments[a];
+        const auto& [r, s] = segments[b];
+        out += side(p, q, r) * side(p, q, s) < 0 && side(r, s, p) * side(r, s, q) < 0;
+      }
+    }
+  }
+  return out;
+}
+
 /// Casts n x n lines of sight over the image of the model: the first hit must be inside its face's
 /// region, all others outside.
 inline RegionCheck CheckRegions(

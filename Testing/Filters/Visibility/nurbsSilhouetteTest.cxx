@@ -548,7 +548,7 @@ TEST(Silhouette, BadInput)
     }
     return std::string();
   };
-  EXPECT_EQ(problem({ false, Vec3::Zero() }, 1e-4), "The direction to the viewer has no length");
+  EXPECT_EQ(problem({ false, Vec3::Zero() }, 1e-4), "The direction to the viewer has length zero");
   EXPECT_EQ(problem({ false, Vec3(0, nan, 1) }, 1e-4), "The direction to the viewer is not finite");
   EXPECT_EQ(problem({ true, Vec3(0, nan, 1) }, 1e-4), "The eye is not finite");
   EXPECT_NE(problem({ false, Vec3(0, 0, 1) }, 0.0), "");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visible regions against lines of sight over the whole image, and areas against closed forms.
+#include "RegionArea.h"
 #include "Shapes.h"
 #include "nurbsModelShapes.h"
 #include "nurbsRegionReference.h"
+#include "nurbsTorusVisibility.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +21,13 @@ struct Case
   nurbs::AssembledModel Made;
   VisibleRegions Result;
 
-  void Run(const Viewer& viewer, double precision)
+  void Run(const Viewer& viewer, double precision, bool clustering = false)
   {
     this->Made = nurbs::AssembleModel(this->Builder.Arrays());
     VisibleRegionOptions options;
     options.View = viewer;
     options.Precision = precision;
+    options.Clustering = clustering;
     this->Result = nurbs::MakeVisibleRegions(this->Made.Model, this->Made.FaceErrors, options);
   }
   double VisibleArea() const
@@ -183,5 +186,117 @@ TEST(VisibleRegions, AreaOfPiercingSpheres)
     TwoSpheres behind(middle);
     behind.Run(Direction(middle[0], middle[1], middle[2]), precision);
     EXPECT_NEAR(behind.VisibleArea(), 2.0 * PI, 50.0 * precision);
+  }
+}
+
+// The silhouette crosses the seam where it has a cusp, and all run together in the image for a few pixels:
+// borders that are taken back from there cross.
+TEST(VisibleRegions, TorusWithACuspAtTheSeam)
+{
+  const double exact = VisibleTorusArea({ { 1.0, 0.3 } }, 0, Vec3(0.3, -0.9, 0.2), 2000);
+  for (const double precision : { 4e-2, 1e-3, 4e-4 })
+  {
+    for (const bool clustering : { false, true })
+    {
+      Case torus;
+      nurbs::AddTorus(torus.Builder, 1.0, 0.3);
+      torus.Run(Direction(0.3, -0.9, 0.2), precision, clustering);
+      torus.Check(precision, 160);
+      EXPECT_EQ(CountCrossings(torus.Result), 0);
+      // The precision times the length of the border, which is longer on the surface than in the image.
+      EXPECT_NEAR(torus.VisibleArea(), exact, 5.0 * precision);
+    }
+  }
+}
+
+// Seen along its seams or nearly so, faces have parts that are narrower than the precision in the image
+// and large nonetheless.
+TEST(VisibleRegions, AreasAtGrazingViews)
+{
+  for (const Vec3& view : { Vec3(1.0, 0.02, 0.01), Vec3(0.01, 0.02, 1.0), Vec3(0.02, 1.0, -0.01) })
+  {
+    for (const double precision : { 3e-2, 3e-3, 3e-4 })
+    {
+      Case sphere;
+      nurbs::AddSphere(sphere.Builder, 1.0);
+      sphere.Run(Direction(view[0], view[1], view[2]), precision);
+      EXPECT_NEAR(sphere.VisibleArea(), 2.0 * PI, precision) << view.transpose();
+      EXPECT_EQ(CountCrossings(sphere.Result), 0);
+      Case torus;
+      nurbs::AddTorus(torus.Builder, 1.0, 0.3);
+      torus.Run(Direction(view[0], view[1], view[2]), precision);
+      const double exact = VisibleTorusArea({ { 1.0, 0.3 } }, 0, view, 2000);
+      EXPECT_NEAR(torus.VisibleArea(), exact, 10.0 * precision) << view.transpose();
+      EXPECT_EQ(CountCrossings(torus.Result), 0);
+    }
+  }
+}
+
+// Hidden and visible regions share a face out.
+TEST(VisibleRegions, HiddenIsTheRest)
+{
+  for (const Viewer& viewer : Views)
+  {
+    Case torus;
+    nurbs::AddTorus(torus.Builder, 2.0, 0.7);
+    torus.Run(viewer, 1e-2);
+    VisibleRegionOptions options;
+    options.View = viewer;
+    options.Precision = 1e-2;
+    options.HiddenRegions = true;
+    Case hidden;
+    hidden.Result = nurbs::MakeVisibleRegions(torus.Made.Model, torus.Made.FaceErrors, options);
+    const Model& model = hidden.Result.Lines.Whole.Data;
+    EXPECT_NEAR(torus.VisibleArea() + nurbs::RegionArea(model, 0, hidden.Result.Faces[0].Loops),
+      4.0 * PI * PI * 2.0 * 0.7, 1e-6);
+    EXPECT_EQ(CountCrossings(hidden.Result), 0);
+  }
+}
+
+struct Rectangle
+{
+  Vec2 Low, High;
+};
+
+// A plane [0, 4] x [0, 2] whose parameters are lengths, with rectangular loops: the first one is the
+// border, others are holes.
+void AddPlate(nurbs::ModelBuilder& builder, const std::vector<Rectangle>& loops)
+{
+  nurbs::Surface plate;
+  plate.Degree[0] = plate.Degree[1] = 1;
+  plate.Count[0] = plate.Count[1] = 2;
+  plate.Knots[0] = { 0.0, 0.0, 4.0, 4.0 };
+  plate.Knots[1] = { 0.0, 0.0, 2.0, 2.0 };
+  plate.Points = { Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 2, 0), Vec3(4, 2, 0) };
+  builder.BeginFace(plate.View(), nurbs::FaceAttributes());
+  for (const Rectangle& loop : loops)
+  {
+    const bool isHole = &loop != &loops.front();
+    const Vec2 corners[4] = { loop.Low, { loop.High[0], loop.Low[1] }, loop.High,
+      { loop.Low[0], loop.High[1] } };
+    builder.BeginLoop();
+    for (int k = 0; k < 4; ++k)
+    {
+      const int from = isHole ? 3 - k : k;
+      const int to = isHole ? (6 - k) % 4 : (k + 1) % 4;
+      builder.AddTrimCurve(nurbs::TrimLine(corners[from], corners[to], { 0, 1 }).View(), -1, false);
+    }
+  }
+}
+
+// A plate of 4 x 2 with two holes, both narrower than the precision in the image, one of them long.
+TEST(VisibleRegions, HolesNarrowerThanThePrecision)
+{
+  for (const Viewer& viewer :
+    { Direction(0, 0, 1), Direction(0.3, -0.5, 0.2), Direction(3, 1, 0.1) })
+  {
+    Case holes;
+    AddPlate(holes.Builder,
+      { { Vec2(0, 0), Vec2(4, 2) }, { Vec2(1, 1), Vec2(1.005, 1.004) },
+        { Vec2(2, 0.5), Vec2(2.004, 1.5) } });
+    holes.Run(viewer, 1e-2);
+    const double exact = 8.0 - 0.005 * 0.004 - 0.004 * 1.0;
+    EXPECT_NEAR(holes.VisibleArea(), exact, 1e-9);
+    EXPECT_TRUE(holes.Result.Faces[0].IsWhole);
   }
 }

@@ -45,7 +45,7 @@ def check_defaults(name, prop, key, fresh):
 load_plugin()
 names = [("filters", name) for name in FILTERS + ["NURBSFromBezierCells"]]
 names += [("sources", "NURBSCADReader"), ("sources", "NURBSShapeSource")]
-names += [("writers", "NURBSDrawingWriter")]
+names += [("writers", "NURBS%sWriter" % kind) for kind in ("Drawing", "STEP", "IGES", "BREP")]
 for group, name in names:
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     made = proxy.GetClientSideObject()

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADExport.h"
+
+#include "CrashGuard.h"
+#include "Types.h"
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESCAFControl_Writer.hxx>
+#include <IGESControl_Controller.hxx>
+#include <Interface_Static.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <Standard_Failure.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace nurbs
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// Sets one of OpenCASCADE's global options while it lives.
+class Setting
+{
+public:
+  Setting(const char* name, const char* value)
+    : Name(name)
+    , Old(Interface_Static::CVal(name))
+  {
+    Interface_Static::SetCVal(name, value);
+  }
+  ~Setting() { Interface_Static::SetCVal(this->Name, this->Old.c_str()); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+private:
+  const char* Name;
+  const std::string Old;
+};
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+Quantity_Color ToColor(const Rgb& rgb)
+{
+  return Quantity_Color(rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0, Quantity_TOC_sRGB);
+}
+
+TCollection_ExtendedString ToName(const std::string& name)
+{
+  return TCollection_ExtendedString(name.c_str(), Standard_True);
+}
+
+/// The colour that most of the faces have.
+Rgb CommonColor(const CADPart& part)
+{
+  std::map<Rgb, int> counts;
+  Rgb common = part.Colors.front();
+  for (std::size_t f = 0; f < part.Faces.size(); ++f)
+  {
+    if (++counts[part.Colors[f]] > counts[common])
+    {
+      common = part.Colors[f];
+    }
+  }
+  return common;
+}
+
+/// Fills an XDE document.
+class DocumentFiller
+{
+public:
+  DocumentFiller(const CADContent& content, const Handle(TDocStd_Document) & document)
+    : Content(content)
+    , Shapes(XCAFDoc_DocumentTool::ShapeTool(document->Main()))
+    , Colors(XCAFDoc_DocumentTool::ColorTool(document->Main()))
+  {}
+
+  void Run()
+  {
+    std::vector<TDF_Label> labels;
+    for (const CADNode& node : this->Content.Nodes)
+    {
+      const TDF_Label label =
+        node.Part >= 0 ? this->AddPart(this->Content.Parts[node.Part]) : this->Shapes->NewShape();
+      TDataStd_Name::Set(label, ToName(node.Name));
+      labels.push_back(label);
+    }
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      const CADNode& node = this->Content.Nodes[i];
+      if (node.Parent >= 0)
+      {
+        const TDF_Label use =
+          this->Shapes->AddComponent(labels[node.Parent], labels[i], TopLoc_Location());
+        TDataStd_Name::Set(use, ToName(node.InstanceName.empty() ? node.Name : node.InstanceName));
+      }
+    }
+    this->Shapes->UpdateAssemblies();
+  }
+
+private:
+  TDF_Label AddPart(const CADPart& part)
+  {
+    const TDF_Label label = this->Shapes->AddShape(part.Shape, Standard_False);
+    const Rgb common = part.Colors.empty() ? Rgb() : CommonColor(part);
+    if (!part.Colors.empty())
+    {
+      this->Colors->SetColor(label, ToColor(common), XCAFDoc_ColorSurf);
+    }
+    for (std::size_t f = 0; f < part.Faces.size(); ++f)
+    {
+      const bool colored = !part.Colors.empty() && part.Colors[f] != common;
+      const bool named =
+        !part.FaceNames.empty() && !part.FaceNames[f].empty() && part.FaceNames[f] != part.Name;
+      if (!colored && !named)
+      {
+        continue;
+      }
+      const TDF_Label face = this->Shapes->AddSubShape(label, part.Faces[f]);
+      if (face.IsNull())
+      {
+        continue;
+      }
+      if (colored)
+      {
+        this->Colors->SetColor(face, ToColor(part.Colors[f]), XCAFDoc_ColorSurf);
+      }
+      if (named)
+      {
+        TDataStd_Name::Set(face, ToName(part.FaceNames[f]));
+      }
+    }
+    return label;
+  }
+
+  const CADContent& Content;
+  Handle(XCAFDoc_ShapeTool) Shapes;
+  Handle(XCAFDoc_ColorTool) Colors;
+};
+
+Handle(TDocStd_Document) MakeDocument(const CADContent& content)
+{
+  const Handle(TDocStd_Document) document = NewCADDocument();
+  DocumentFiller(content, document).Run();
+  return document;
+}
+
+const char* UnitKeyword(const CADContent& content)
+{
+  return content.Unit.Keyword ? content.Unit.Keyword : "MM";
+}
+
+bool WriteStep(
+  const CADContent& content, const std::string& path, const Message_ProgressRange& range)
+{
+  STEPCAFControl_Controller::Init();
+  const Setting schema("write.step.schema", "AP214IS");
+  const Setting unit("write.step.unit", UnitKeyword(content));
+  const Setting names("write.stepcaf.subshapes.name", "On");
+  STEPCAFControl_Writer writer;
+  writer.SetColorMode(true);
+  writer.SetNameMode(true);
+  writer.SetLayerMode(false);
+  writer.SetPropsMode(false);
+  if (!writer.Transfer(MakeDocument(content), STEPControl_AsIs, nullptr, range))
+  {
+    return false;
+  }
+  APIHeaderSection_MakeHeader header(writer.ChangeWriter().Model());
+  header.SetName(new TCollection_HAsciiString(fs::path(path).stem().c_str()));
+  header.SetOriginatingSystem(new TCollection_HAsciiString("vtkNURBS"));
+  return writer.Write(path.c_str()) == IFSelect_RetDone;
+}
+
+bool WriteIges(
+  const CADContent& content, const std::string& path, const Message_ProgressRange& range)
+{
+  IGESControl_Controller::Init();
+  const Setting unit("write.iges.unit", UnitKeyword(content));
+  const Setting entities("write.iges.brep.mode", "BRep");
+  IGESCAFControl_Writer writer;
+  writer.SetColorMode(true);
+  writer.SetNameMode(true);
+  writer.SetLayerMode(false);
+  if (!writer.Transfer(MakeDocument(content), range))
+  {
+    return false;
+  }
+  writer.ComputeModel();
+  return writer.Write(path.c_str());
+}
+
+bool WriteBrep(
+  const CADContent& content, const std::string& path, const Message_ProgressRange& range)
+{
+  if (content.Parts.size() == 1)
+  {
+    return BRepTools::Write(content.Parts.front().Shape, path.c_str(), range);
+  }
+  BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (const CADPart& part : content.Parts)
+  {
+    builder.Add(all, part.Shape);
+  }
+  return BRepTools::Write(all, path.c_str(), range);
+}
+
+bool Write(const CADContent& content, CADFormat format, const std::string& path,
+  const Message_ProgressRange& range)
+{
+  switch (format)
+  {
+    case CADFormat::STEP:
+      return WriteStep(content, path, range);
+    case CADFormat::IGES:
+      return WriteIges(content, path, range);
+    default:
+      return WriteBrep(content, path, range);
+  }
+}
+
+/// Throws unless the file can be opened. An existing file keeps its content for now.
+void CheckPath(const std::string& path)
+{
+  const bool existed = fs::exists(fs::u8path(path));
+  if (fs::is_directory(fs::u8path(path)))
+  {
+    throw Error("cannot write \"" + path + "\": it is a directory");
+  }
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  if (!file)
+  {
+    throw Error("cannot write \"" + path + "\": " + std::strerror(errno));
+  }
+  file.close();
+  std::error_code ignored;
+  if (!existed)
+  {
+    fs::remove(fs::u8path(path), ignored);
+  }
+}
+
+void RemoveFile(const std::string& path)
+{
+  std::error_code ignored;
+  if (fs::is_regular_file(fs::symlink_status(fs::u8path(path), ignored))) // No device, no link.
+  {
+    fs::remove(fs::u8path(path), ignored);
+  }
+}
+
+/// Writes; returns what went wrong, "" if nothing did.
+std::string TryToWrite(const CADContent& content, CADFormat format, const std::string& path,
+  const Message_ProgressRange& range)
+{
+  bool written = false;
+  try
+  {
+    const int signal = RunGuarded([&] { written = Write(content, format, path, range); });
+    if (signal != 0)
+    {
+      return std::string("OpenCASCADE fails to make ") + NameOf(format) + " of it";
+    }
+  }
+  catch (const Standard_Failure& failure)
+  {
+    const char* text = failure.GetMessageString();
+    return std::string("OpenCASCADE fails to make ") + NameOf(format) +
+      " of it: " + (text && *text ? text : failure.DynamicType()->Name());
+  }
+  catch (const std::exception& failure) // OpenCASCADE's streams throw when a disk is full.
+  {
+    return std::string("the disk may be full (") + failure.what() + ")";
+  }
+  return written ? "" : "the disk may be full, or OpenCASCADE could not translate the shape";
+}
+
+} // namespace
+
+void SaveCADFile(
+  const CADContent& content, CADFormat format, const std::string& path, const CADProgress& report)
+{
+  CheckPath(path);
+  const CADSession session;
+  const Handle(CADProgressIndicator) progress = new CADProgressIndicator(report);
+  std::string problem = TryToWrite(content, format, path, progress->Start());
+  if (progress->Stopped())
+  {
+    RemoveFile(path);
+    throw Error("aborted");
+  }
+  if (problem.empty())
+  {
+    try
+    {
+      DetectCADFormat(path); // Is it whole?
+    }
+    catch (const Error&)
+    {
+      problem = "the file is cut short, the disk may be full";
+    }
+  }
+  if (!problem.empty())
+  {
+    RemoveFile(path);
+    throw Error("cannot write \"" + path + "\": " + problem);
+  }
+}
+
+} // namespace nurbs

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNURBSCADWriter.h"
+
+#include "CADExport.h"
+#include "ShapeBuilder.h"
+#include "vtkNURBSCADTree.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkSMPTools.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+vtkStandardNewMacro(vtkNURBSCADWriter);
+
+namespace
+{
+
+constexpr double BuildPart = 0.6;     // of the progress
+constexpr std::size_t MostFaces = 10; // that a warning names
+
+std::string LowerEnding(const char* path)
+{
+  std::string ending = std::filesystem::u8path(path).extension().u8string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::string Plural(std::size_t count, const char* noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// "3 faces are not valid: a, b, and 1 more".
+std::string Listed(const std::string& start, const std::vector<std::string>& items)
+{
+  std::string text = start;
+  for (std::size_t i = 0; i < std::min(items.size(), MostFaces); ++i)
+  {
+    text += (i == 0 ? ": " : "; ") + items[i];
+  }
+  if (items.size() > MostFaces)
+  {
+    text += "; and " + std::to_string(items.size() - MostFaces) + " more";
+  }
+  return text;
+}
+
+/// "block 2 (wheel): cell 3 (FaceId 17): reason".
+std::string FaceLine(
+  const vtkNURBSCADTree::Block& block, std::size_t cell, const std::string& reason)
+{
+  const vtkIdType id = static_cast<vtkIdType>(cell);
+  std::ostringstream text;
+  text << block.Prefix << "cell " << cell << " (FaceId " << vtkNURBSModel::GetFaceId(block.Grid, id)
+       << "): " << reason;
+  return text.str();
+}
+
+} // namespace
+
+struct vtkNURBSCADWriter::Work
+{
+  nurbs::CADFormat Format = nurbs::CADFormat::STEP;
+  std::vector<vtkNURBSCADTree::Block> Blocks;
+  std::vector<double> Scales; // Millimetres a unit of each block.
+  std::vector<nurbs::BuiltShape> Shapes;
+  nurbs::CADContent Content;
+};
+
+vtkNURBSCADWriter::vtkNURBSCADWriter() = default;
+
+vtkNURBSCADWriter::~vtkNURBSCADWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkNURBSCADWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+bool vtkNURBSCADWriter::Fail(unsigned long code, const std::string& message)
+{
+  this->ClearFigures();
+  this->SetErrorCode(code);
+  vtkErrorMacro(<< message);
+  return false;
+}
+
+void vtkNURBSCADWriter::ClearFigures()
+{
+  this->NumberOfFaces = this->NumberOfFailedFaces = this->NumberOfInvalidFaces = 0;
+  this->NumberOfSplitFaces = 0;
+  this->NumberOfSolids = this->NumberOfShells = 0;
+  this->NumberOfEdges = this->NumberOfSharedEdges = 0;
+  this->NumberOfComputedEdges = this->NumberOfTornEdges = 0;
+  this->EdgeTolerance = 0.0;
+}
+
+bool vtkNURBSCADWriter::CheckOptions(Work& work)
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    return this->Fail(vtkErrorCode::NoFileNameError, "FileName is not set");
+  }
+  std::ostringstream problem;
+  if (!(this->CurveTolerance > 0.0) || !std::isfinite(this->CurveTolerance))
+  {
+    problem << "CurveTolerance must be positive, but is " << this->CurveTolerance;
+    return this->Fail(vtkErrorCode::UserError, problem.str());
+  }
+  if (!(this->Gap >= 0.0) || !std::isfinite(this->Gap))
+  {
+    problem << "Gap must not be negative, but is " << this->Gap;
+    return this->Fail(vtkErrorCode::UserError, problem.str());
+  }
+  const std::string ending = LowerEnding(this->FileName);
+  if (this->Format == STEP ||
+    (this->Format == BY_ENDING && (ending == ".step" || ending == ".stp")))
+  {
+    work.Format = nurbs::CADFormat::STEP;
+  }
+  else if (this->Format == IGES ||
+    (this->Format == BY_ENDING && (ending == ".iges" || ending == ".igs")))
+  {
+    work.Format = nurbs::CADFormat::IGES;
+  }
+  else if (this->Format == BREP ||
+    (this->Format == BY_ENDING && (ending == ".brep" || ending == ".brp")))
+  {
+    work.Format = nurbs::CADFormat::BREP;
+  }
+  else
+  {
+    return this->Fail(vtkErrorCode::UnrecognizedFileTypeError,
+      "cannot write \"" + std::string(this->FileName) +
+        "\": CAD files are .step, .stp, .iges, .igs, .brep or .brp");
+  }
+  return true;
+}
+
+bool vtkNURBSCADWriter::FindUnits(Work& work)
+{
+  for (const vtkNURBSCADTree::Block& block : work.Blocks)
+  {
+    const std::string name = vtkNURBSModel::GetLengthUnit(block.Grid);
+    const nurbs::CADUnit* unit = nurbs::FindCADUnit(name.empty() ? "mm" : name);
+    if (!unit)
+    {
+      return this->Fail(
+        vtkErrorCode::UserError, block.Prefix + "the unit of length \"" + name + "\" is not known");
+    }
+    if (work.Scales.empty())
+    {
+      work.Content.Unit = *unit;
+    }
+    work.Scales.push_back(unit->Millimetres);
+  }
+  return true;
+}
+
+// Shapes of all blocks, and what is told of their faces.
+bool vtkNURBSCADWriter::Build(Work& work)
+{
+  std::atomic<bool> abort{ false };
+  double progress = 0.0, end = 0.0;
+  const nurbs::ParallelFor parallel = [&](std::int64_t first, std::int64_t last, const auto& body) {
+    // In pieces, so that an abort is heard.
+    const std::int64_t piece = std::max<std::int64_t>(64, (last - first) / 16);
+    for (std::int64_t begin = first; begin < last && !abort; begin += piece)
+    {
+      vtkSMPTools::For(begin, std::min(last, begin + piece), 1,
+        [&](vtkIdType from, vtkIdType to) { body(from, to); });
+      progress += (end - progress) / 20.0;
+      this->UpdateProgress(progress);
+      abort = this->GetAbortExecute() != 0;
+    }
+  };
+  nurbs::ShapeOptions options;
+  options.CurveTolerance = this->CurveTolerance;
+  options.Gap = this->Gap;
+  std::vector<std::string> failures;
+  for (std::size_t i = 0; i < work.Blocks.size() && !abort; ++i)
+  {
+    const vtkNURBSCADTree::Block& block = work.Blocks[i];
+    end = BuildPart * double(i + 1) / double(work.Blocks.size());
+    options.Scale = work.Scales[i];
+    const auto view = vtkNURBSModel::View(block.Grid);
+    std::vector<std::string> errors;
+    for (vtkIdType cell = 0; cell < block.Grid->GetNumberOfCells(); ++cell)
+    {
+      errors.push_back(view->GetFaceError(cell));
+    }
+    work.Shapes.push_back(nurbs::BuildShape(view->GetModel(), errors, options, parallel, abort));
+    const std::vector<std::string>& found = work.Shapes.back().FaceErrors;
+    for (std::size_t f = 0; f < found.size(); ++f)
+    {
+      if (!found[f].empty())
+      {
+        failures.push_back(FaceLine(block, f, found[f]));
+      }
+    }
+    progress = end;
+    this->UpdateProgress(progress);
+    abort = abort || this->GetAbortExecute();
+  }
+  if (abort)
+  {
+    return false;
+  }
+  this->NumberOfFailedFaces = static_cast<vtkIdType>(failures.size());
+  const bool some = std::any_of(work.Shapes.begin(), work.Shapes.end(),
+    [](const nurbs::BuiltShape& shape) { return !shape.Shape.IsNull(); });
+  if (!some)
+  {
+    return this->Fail(
+      vtkErrorCode::UserError, Listed("there is no face that can be written", failures));
+  }
+  if (!failures.empty())
+  {
+    vtkWarningMacro(<< Listed(Plural(failures.size(), "face") + " can't be written", failures));
+  }
+  return true;
+}
+
+void vtkNURBSCADWriter::CheckShapes(const Work& work)
+{
+  std::vector<std::string> faults;
+  vtkIdType torn = 0;
+  for (std::size_t i = 0; i < work.Shapes.size(); ++i)
+  {
+    const nurbs::BuiltShape& shape = work.Shapes[i];
+    this->NumberOfFaces += static_cast<vtkIdType>(shape.Faces.size());
+    this->NumberOfSplitFaces += shape.SplitFaces;
+    this->NumberOfSolids += shape.Solids;
+    this->NumberOfShells += shape.Shells;
+    this->NumberOfEdges += shape.Edges;
+    this->NumberOfSharedEdges += shape.SharedEdges;
+    this->NumberOfComputedEdges += shape.ComputedEdges;
+    this->EdgeTolerance = std::max(this->EdgeTolerance, shape.EdgeTolerance / work.Scales[i]);
+    torn += shape.TornEdges;
+    for (const nurbs::ShapeFault& fault :
+      this->Check ? nurbs::CheckShape(shape) : std::vector<nurbs::ShapeFault>())
+    {
+      this->NumberOfInvalidFaces += fault.Face >= 0 ? 1 : 0;
+      faults.push_back(fault.Face >= 0
+          ? FaceLine(work.Blocks[i], static_cast<std::size_t>(fault.Face), fault.Reason)
+          : work.Blocks[i].Prefix + fault.Reason);
+    }
+  }
+  this->NumberOfTornEdges = torn;
+  if (torn > 0)
+  {
+    vtkWarningMacro(<< Plural(static_cast<std::size_t>(torn), "edge")
+                    << " torn: the faces are farther apart than Gap allows");
+  }
+  if (!faults.empty())
+  {
+    vtkWarningMacro(<< Listed("OpenCASCADE's check finds fault with what is written", faults));
+  }
+}
+
+bool vtkNURBSCADWriter::Save(Work& work)
+{
+  const std::string stem = std::filesystem::u8path(this->FileName).stem().u8string();
+  std::vector<std::int64_t> parts(work.Blocks.size(), -1);
+  for (std::size_t i = 0; i < work.Blocks.size(); ++i)
+  {
+    if (!work.Shapes[i].Shape.IsNull())
+    {
+      parts[i] = static_cast<std::int64_t>(work.Content.Parts.size());
+      work.Content.Parts.emplace_back();
+      nurbs::CADPart& part = work.Content.Parts.back();
+      part.Shape = work.Shapes[i].Shape;
+      part.Faces = work.Shapes[i].Faces;
+      vtkNURBSCADTree::DescribeFaces(work.Blocks[i].Grid, work.Shapes[i].FaceOf, part);
+    }
+  }
+  vtkNURBSCADTree::MakeNodes(this->GetInput(), work.Blocks, parts, stem, work.Content);
+  try
+  {
+    nurbs::SaveCADFile(work.Content, work.Format, this->FileName, [this](double done) {
+      this->UpdateProgress(BuildPart + (1.0 - BuildPart) * done);
+      return !this->GetAbortExecute();
+    });
+  }
+  catch (const std::exception& problem)
+  {
+    return this->GetAbortExecute() ? false
+                                   : this->Fail(vtkErrorCode::CannotOpenFileError, problem.what());
+  }
+  return true;
+}
+
+void vtkNURBSCADWriter::WriteData()
+{
+  this->ClearFigures();
+  Work work;
+  if (!this->CheckOptions(work))
+  {
+    return;
+  }
+  const std::string problem = vtkNURBSCADTree::Find(this->GetInput(), work.Blocks);
+  if (!problem.empty())
+  {
+    this->Fail(vtkErrorCode::UserError, problem);
+    return;
+  }
+  if (work.Blocks.empty())
+  {
+    this->Fail(vtkErrorCode::UserError, "there is no face to write");
+    return;
+  }
+  if (!this->FindUnits(work) || !this->Build(work))
+  {
+    return;
+  }
+  this->CheckShapes(work);
+  if (!this->Save(work))
+  {
+    this->ClearFigures();
+    return;
+  }
+  this->UpdateProgress(1.0);
+}
+
+void vtkNURBSCADWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Format: " << this->Format << "\n";
+  os << indent << "CurveTolerance: " << this->CurveTolerance << "\n";
+  os << indent << "Gap: " << this->Gap << "\n";
+  os << indent << "Check: " << (this->Check ? "on" : "off") << "\n";
+  os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
+  os << indent << "NumberOfSplitFaces: " << this->NumberOfSplitFaces << "\n";
+  os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "NumberOfSolids: " << this->NumberOfSolids << "\n";
+  os << indent << "NumberOfShells: " << this->NumberOfShells << "\n";
+  os << indent << "NumberOfEdges: " << this->NumberOfEdges << "\n";
+  os << indent << "NumberOfSharedEdges: " << this->NumberOfSharedEdges << "\n";
+  os << indent << "NumberOfComputedEdges: " << this->NumberOfComputedEdges << "\n";
+  os << indent << "NumberOfTornEdges: " << this->NumberOfTornEdges << "\n";
+  os << indent << "NumberOfInvalidFaces: " << this->NumberOfInvalidFaces << "\n";
+  os << indent << "EdgeTolerance: " << this->EdgeTolerance << "\n";
+}
