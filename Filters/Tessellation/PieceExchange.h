@@ -6,6 +6,7 @@
 #include "CompletedModel.h"
 #include "FaceTessellator.h"
 #include "PieceLinks.h"
+#include "ShortEdges.h"
 
 #include <unordered_map>
 

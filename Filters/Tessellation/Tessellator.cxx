@@ -120,9 +120,14 @@ private:
         shortest[e] = shortest[e] > 0.0 ? std::min(shortest[e], length) : length;
       }
     }
-    const PieceLoops piece =
-      this->Exchange->IsParallel() ? this->Exchange->GetLoops() : PieceLoops();
-    CollapseShortEdges(this->Completed, shortest, this->Exchange->IsParallel() ? &piece : nullptr);
+    if (this->Exchange->IsParallel())
+    {
+      CollapseShortEdges(this->Completed, shortest, this->Exchange->GetLoops());
+    }
+    else
+    {
+      CollapseShortEdges(this->Completed, shortest);
+    }
   }
 
   // Large surfaces are worked on by all threads at once, the others one a thread.
