@@ -19,7 +19,7 @@ LIMIT = 3
 PIXELS = {"edges": 20, "lines": 20}
 # Translucent faces are blended process by process: where those of two lie behind each other alternately
 # they come in another order. Of the pixels drawn that are some, by some shade.
-TRANSLUCENT = 0.2, 40
+TRANSLUCENT = 0.02, 64
 
 
 def run(ranks):

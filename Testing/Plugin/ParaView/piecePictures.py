@@ -58,6 +58,5 @@ picture("mesh")
 lines = simple.NURBSVisibleRegions(Input=model, Direction=[1.0, -2.0, 1.5])
 simple.Hide(mesh, view)
 drawn = simple.Show(simple.OutputPort(lines, 1), view)
-simple.ColorBy(drawn, None)
 drawn.AmbientColor = drawn.DiffuseColor = [0.0, 0.0, 0.0]
 picture("lines")

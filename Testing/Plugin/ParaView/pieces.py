@@ -2,7 +2,7 @@
 """What each process has of every filter's outputs, for TestPieces.py.
 
 Run as `mpirun -np N pvbatch --symmetric pieces.py PLUGIN FOLDER SOURCE [FILTER...]`. SOURCE is a CAD
-or XML file, a shape (a number of vtkNURBSShapeSource, or "car"), "group" (two files as blocks), or
+or XML file, a shape (a number of vtkNURBSShapeSource, or "car"), "group" (two shapes as blocks), or
 "saved" (what all processes write and read again). Writes FOLDER/rank-R.json: of each output
 the digests of its cells, each of the coordinates and all arrays of the cell and its points; of
 triangle meshes the digests of their sides; and the figures that the filters tell.
@@ -18,7 +18,6 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkIdList, vtkStringArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-NUT = "/usr/share/opencascade/data/occ/Pump_Nut.brep"
 SOURCE = sys.argv[3]
 FIGURES = ("CertifiedError", "ToleranceUsed", "VisibleArea", "ErrorBound", "NumberOfMovedPoints")
 
@@ -88,7 +87,8 @@ def source():
     if SOURCE == "car":
         return simple.NURBSShapeSource(Shape="Car Body", NumberOfPatches=400)
     if SOURCE == "group":
-        return simple.GroupDatasets(Input=[simple.OpenDataFile(f) for f in (SCREW, NUT)])
+        shapes = [simple.NURBSShapeSource(Shape=shape) for shape in ("Teapot", "Vase")]
+        return simple.GroupDatasets(Input=shapes)
     if SOURCE == "saved":
         name = path("saved.vtpc")
         simple.SaveData(name, proxy=simple.OpenDataFile(SCREW))
