@@ -2,7 +2,7 @@
 """Doxygen's filter of the Markdown pages: names pages and headings as links between them need it.
 
     page.py FILE.md       prints the page for Doxygen
-    page.py --layout      prints Doxygen's layout: the tabs of layout.xml with the pages below them
+    page.py --layout      prints Doxygen's layout: layout.xml with a tab a folder, and its pages below that
 
 GitHub's links are paths (`../Papers/li-1997.md#measured`), Doxygen's are names of pages and headings.
 A page is called after its folder and file (`papers-li-1997`, a README.md after its folder alone), a
@@ -73,21 +73,23 @@ def convert(page):
         yield "`".join(parts)
 
 
-def add_pages(match):
-    """A tab of a folder's README.md, with the pages that it links in the order of its links."""
-    tab, name = match.groups()
-    (index,) = (p for p in ROOT.glob("Documentation/*/README.md") if page_name(p) == name)
-    pages = [tab.replace('"user"', '"usergroup"').replace("/>", ">")]
+def tab(folder):
+    """The tab of a folder's README.md, with the pages that it links in the order of its links."""
+    index = ROOT / "Documentation" / folder / "README.md"
+    title = index.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+    lines = [f'    <tab type="usergroup" url="@ref {page_name(index)}" title="{title}">']
     for _, text, target in LINK.findall(index.read_text(encoding="utf-8")):
         file = (index.parent / target).resolve()
-        if file.parent == index.parent:
-            pages.append(f'<tab type="user" url="@ref {page_name(file)}" title="{text}"/>')
-    return "\n      ".join(pages) + "\n    </tab>"
+        if file.parent == index.parent and file.suffix == ".md":
+            lines.append(f'      <tab type="user" url="@ref {page_name(file)}" title="{text}"/>')
+    return "\n".join([*lines, "    </tab>"])
 
 
 def layout():
     text = (ROOT / "Documentation" / "Site" / "layout.xml").read_text(encoding="utf-8")
-    return re.sub(r'(<tab type="user" url="@ref (\w+)" title="[^"]*"/>)', add_pages, text)
+    folders = ("Guide", "Examples", "Papers", "Developer", "decisions")
+    present = [f for f in folders if (ROOT / "Documentation" / f / "README.md").exists()]
+    return text.replace("    <!-- folders -->", "\n".join(map(tab, present)))
 
 
 if __name__ == "__main__":

@@ -339,7 +339,7 @@ private:
   AssembledModel Result;
   std::string TrimReason;                ///< Why no face can be trimmed, or "".
   std::vector<std::string> CurveReasons; ///< Why a trim curve is bad, or "".
-  std::vector<std::vector<std::string>> FaceWarnings;
+  std::vector<std::vector<std::string>> EdgeWarnings, FaceWarnings;
 };
 
 void Assembler::AddVertices()
@@ -360,7 +360,9 @@ void Assembler::AddVertices()
 void Assembler::AddEdge(std::int64_t i)
 {
   Edge edge;
-  const std::string name = "edge " + std::to_string(i) + ": ";
+  const auto warn = [&](const std::string& reason) {
+    this->EdgeWarnings[i].push_back("edge " + std::to_string(i) + ": " + reason);
+  };
   if (this->A.EdgePointCount[i] != 0)
   {
     const CurveArrays arrays{ this->A.EdgeDegree, this->A.EdgeKnotStart, this->A.EdgePointStart,
@@ -368,7 +370,7 @@ void Assembler::AddEdge(std::int64_t i)
     const std::string reason = MakeCurve<3>(arrays, i, edge.Geometry);
     if (!reason.empty())
     {
-      this->Warn(-1, name + reason + "; its curve is ignored");
+      warn(reason + "; its curve is ignored");
     }
   }
   if (!this->A.EdgeTolerance.empty())
@@ -376,7 +378,7 @@ void Assembler::AddEdge(std::int64_t i)
     edge.Tolerance = this->A.EdgeTolerance[i];
     if (!std::isfinite(edge.Tolerance) || edge.Tolerance < 0.0)
     {
-      this->Warn(-1, name + "its tolerance is negative or not finite; 0 is used");
+      warn("its tolerance is negative or not finite; 0 is used");
       edge.Tolerance = 0.0;
     }
   }
@@ -391,9 +393,8 @@ void Assembler::AddEdge(std::int64_t i)
     }
     else if (vertex != -1)
     {
-      this->Warn(-1,
-        name + "vertex " + std::to_string(vertex) + (known ? " is not finite" : " does not exist") +
-          "; it is ignored");
+      warn("vertex " + std::to_string(vertex) + (known ? " is not finite" : " does not exist") +
+        "; it is ignored");
     }
   }
   this->Result.Model.Edges[i] = edge;
@@ -408,9 +409,19 @@ void Assembler::AddEdges()
     return;
   }
   this->Result.Model.Edges.resize(this->A.EdgeDegree.size());
-  for (std::int64_t i = 0; i < Count(this->A.EdgeDegree); ++i)
+  this->EdgeWarnings.resize(this->A.EdgeDegree.size());
+  this->Parallel(0, Count(this->A.EdgeDegree), [this](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      this->AddEdge(i);
+    }
+  });
+  for (const std::vector<std::string>& warnings : this->EdgeWarnings)
   {
-    this->AddEdge(i);
+    for (const std::string& warning : warnings)
+    {
+      this->Warn(-1, warning);
+    }
   }
 }
 

@@ -57,7 +57,7 @@ set(python_minor "${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}")
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${vtk_python}, python3 (>= ${python_minor}~), \
 python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~), libgl1-mesa-dri")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS occt-misc)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "occt-misc, python3-numpy")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${debian}/prerm")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME vtknurbs-dev)

@@ -8,16 +8,41 @@
 namespace nurbs
 {
 
-std::size_t TileAtlas::Hash::operator()(const Tile& tile) const
+namespace
 {
-  std::uint64_t key = std::uint64_t(tile.Surface);
-  for (const int value : { tile.Span[0], tile.Span[1], tile.First[0] | tile.First[1] << 16,
-         tile.Log[0] | tile.Log[1] << 8 })
+
+constexpr std::size_t MinTableSize = 1024;
+
+} // namespace
+
+// Surface and logs (5 bits hold MaxSpanLog), spans and first cells (16 bits each).
+TileAtlas::Entry::Entry(const Tile& tile)
+{
+  const auto bits = [](int value, int shift) {
+    return std::uint64_t(std::uint32_t(value)) << shift;
+  };
+  this->Key[0] = bits(tile.Surface, 0) | bits(tile.Log[0], 32) | bits(tile.Log[1], 40);
+  this->Key[1] = bits(tile.Span[0], 0) | bits(tile.Span[1], 16) | bits(tile.First[0], 32) |
+    bits(tile.First[1], 48);
+}
+
+int TileAtlas::Entry::Shape() const
+{
+  Tile tile;
+  tile.Log[0] = int(this->Key[0] >> 32 & 0xff);
+  tile.Log[1] = int(this->Key[0] >> 40 & 0xff);
+  return tile.Shape();
+}
+
+std::uint64_t TileAtlas::Entry::Hash() const
+{
+  std::uint64_t hash = 0;
+  for (const std::uint64_t key : this->Key)
   {
-    key = (key ^ std::uint64_t(std::uint32_t(value))) * 0x9E3779B97F4A7C15ull;
-    key ^= key >> 32;
+    hash = (hash ^ key) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 32;
   }
-  return key;
+  return hash;
 }
 
 void TileAtlas::Resize(int pagesX, int pagesY)
@@ -31,7 +56,8 @@ void TileAtlas::Resize(int pagesX, int pagesY)
   {
     open.clear();
   }
-  this->Tiles.clear();
+  this->Tiles.assign(MinTableSize, Entry());
+  this->Count = 0;
 }
 
 int TileAtlas::SlotsPerPage(int shape)
@@ -108,59 +134,99 @@ void TileAtlas::GiveBack(const Entry& entry)
   page.Free.push_back(entry.Index);
 }
 
-bool TileAtlas::DropUnused()
+// The entry of a tile, or the empty one where it belongs.
+TileAtlas::Entry& TileAtlas::Find(const Entry& wanted)
 {
-  const std::size_t before = this->Tiles.size();
-  for (auto it = this->Tiles.begin(); it != this->Tiles.end();)
+  const std::size_t mask = this->Tiles.size() - 1;
+  std::size_t at = wanted.Hash() & mask;
+  while (this->Tiles[at].Page >= 0 &&
+    (this->Tiles[at].Key[0] != wanted.Key[0] || this->Tiles[at].Key[1] != wanted.Key[1]))
   {
-    if (it->second.Frame < this->Frame)
+    at = (at + 1) & mask;
+  }
+  return this->Tiles[at];
+}
+
+void TileAtlas::Rehash(std::size_t size)
+{
+  const std::vector<Entry> before = std::move(this->Tiles);
+  this->Tiles.assign(size, Entry());
+  for (const Entry& entry : before)
+  {
+    if (entry.Page >= 0)
     {
-      this->GiveBack(it->second);
-      it = this->Tiles.erase(it);
-    }
-    else
-    {
-      ++it;
+      this->Find(entry) = entry;
     }
   }
-  return this->Tiles.size() < before;
+}
+
+// Returns whether there were such entries.
+template <typename F>
+bool TileAtlas::DropIf(F&& isDropped)
+{
+  const std::size_t before = this->Count;
+  for (Entry& entry : this->Tiles)
+  {
+    if (entry.Page >= 0 && isDropped(entry))
+    {
+      this->GiveBack(entry);
+      entry.Page = -1;
+      --this->Count;
+    }
+  }
+  if (this->Count < before)
+  {
+    this->Rehash(this->Tiles.size()); // closes gaps that a search would end at
+  }
+  return this->Count < before;
+}
+
+bool TileAtlas::DropUnused()
+{
+  return this->DropIf([this](const Entry& entry) { return entry.Frame < this->Frame; });
 }
 
 bool TileAtlas::Place(const Tile& tile, Slot& slot, bool& isNew)
 {
-  auto found = this->Tiles.find(tile);
-  isNew = found == this->Tiles.end();
+  if (2 * this->Count >= this->Tiles.size())
+  {
+    this->Rehash(std::max(MinTableSize, 2 * this->Tiles.size()));
+  }
+  Entry wanted(tile);
+  Entry* found = &this->Find(wanted);
+  isNew = found->Page < 0;
   if (isNew)
   {
-    Entry entry{};
-    while (!this->Take(tile.Shape(), entry))
+    while (!this->Take(tile.Shape(), wanted))
     {
       if (!this->DropUnused())
       {
         return false;
       }
     }
-    found = this->Tiles.emplace(tile, entry).first;
+    found = &this->Find(wanted); // entries move when others are dropped
+    *found = wanted;
+    ++this->Count;
   }
-  found->second.Frame = this->Frame;
-  slot = this->Locate(tile.Shape(), found->second);
+  found->Frame = this->Frame;
+  slot = this->Locate(tile.Shape(), *found);
   return true;
 }
 
 void TileAtlas::Forget(const std::vector<int>& surfaces)
 {
-  for (auto it = this->Tiles.begin(); it != this->Tiles.end() && !surfaces.empty();)
+  if (surfaces.empty())
   {
-    if (std::binary_search(surfaces.begin(), surfaces.end(), it->first.Surface))
-    {
-      this->GiveBack(it->second);
-      it = this->Tiles.erase(it);
-    }
-    else
-    {
-      ++it;
-    }
+    return;
   }
+  std::vector<char> isChanged(std::size_t(surfaces.back()) + 1, 0);
+  for (const int surface : surfaces)
+  {
+    isChanged[surface] = 1;
+  }
+  this->DropIf([&isChanged](const Entry& entry) {
+    return std::size_t(entry.Surface()) < isChanged.size() && isChanged[entry.Surface()];
+  });
 }
 
 } // namespace nurbs

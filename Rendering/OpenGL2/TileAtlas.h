@@ -9,7 +9,8 @@
 
 #include "TileSelection.h"
 
-#include <unordered_map>
+#include <cstdint>
+#include <vector>
 
 namespace nurbs
 {
@@ -43,16 +44,24 @@ public:
   void Clear() { this->Resize(this->Pages[0], this->Pages[1]); }
 
   /// Tiles that are in the atlas.
-  std::size_t Size() const { return this->Tiles.size(); }
+  std::size_t Size() const { return this->Count; }
   /// Pages that a selection needs in an empty atlas.
   static std::int64_t PagesFor(const std::vector<Tile>& tiles);
 
 private:
+  /// A tile that is in the atlas.
   struct Entry
   {
-    int Page;
-    int Index; ///< Slot in the page.
-    std::uint64_t Frame;
+    std::uint64_t Key[2] = { 0, 0 }; ///< The tile.
+    std::int32_t Page = -1;          ///< -1: there is none.
+    std::int32_t Index = 0;          ///< Slot in the page.
+    std::uint64_t Frame = 0;         ///< That asked for it last.
+
+    explicit Entry() = default;
+    explicit Entry(const Tile& tile);
+    int Surface() const { return static_cast<int>(this->Key[0] & 0xffffffff); }
+    int Shape() const;
+    std::uint64_t Hash() const;
   };
   struct Page
   {
@@ -60,23 +69,23 @@ private:
     int Taken = 0;
     std::vector<int> Free;
   };
-  struct Hash
-  {
-    std::size_t operator()(const Tile& tile) const;
-  };
-
   static int SlotsPerRow(int log) { return PageSize / ((1 << log) + 1); }
   static int SlotsPerPage(int shape);
   Slot Locate(int shape, const Entry& entry) const;
   bool Take(int shape, Entry& entry);
   void GiveBack(const Entry& entry);
+  Entry& Find(const Entry& wanted);
+  void Rehash(std::size_t size);
   bool DropUnused();
+  template <typename F>
+  bool DropIf(F&& isDropped);
 
   int Pages[2] = { 0, 0 };
   std::vector<Page> PageList;
   std::vector<int> FreePages;
   std::vector<int> OpenPages[Tile::ShapeCount]; ///< Pages of a shape that may have free slots.
-  std::unordered_map<Tile, Entry, Hash> Tiles;
+  std::vector<Entry> Tiles; ///< A hash table, open addressing: a power of two, at most half full.
+  std::size_t Count = 0;    ///< Entries in use.
   std::uint64_t Frame = 1;
 };
 

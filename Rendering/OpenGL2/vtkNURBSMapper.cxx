@@ -34,7 +34,7 @@
 #include "vtk_glew.h"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 vtkStandardNewMacro(vtkNURBSMapper);
 
@@ -46,6 +46,28 @@ int Coarser(int shape, int levels)
 {
   constexpr int Row = nurbs::Tile::MaxLog + 1;
   return std::max(shape % Row - levels, 0) + Row * std::max(shape / Row - levels, 0);
+}
+
+// Draws no more than a selector reads: it draws many frames, often for a pixel. `area`: x and y of the
+// first pixel and of the last.
+void ScissorTo(vtkOpenGLState* state, const unsigned int* area)
+{
+  int box[4];
+  state->vtkglGetIntegerv(GL_SCISSOR_BOX, box);
+  const bool on = state->GetEnumState(GL_SCISSOR_TEST);
+  int low[2], high[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    low[k] = static_cast<int>(area[k]);
+    high[k] = static_cast<int>(area[k + 2]) + 1;
+    if (on)
+    {
+      low[k] = std::max(low[k], box[k]);
+      high[k] = std::min(high[k], box[k] + box[k + 2]);
+    }
+  }
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(low[0], low[1], std::max(high[0] - low[0], 0), std::max(high[1] - low[1], 0));
 }
 
 // The actor's matrix, from the model's coordinates to the world's.
@@ -357,6 +379,41 @@ void vtkNURBSMapper::UpdateCameraShiftScale(vtkRenderer* renderer, vtkActor* act
   this->VBOInverseTransform->GetTranspose(this->VBOShiftScale);
 }
 
+// Sets Selection: the tiles that View needs.
+void vtkNURBSMapper::Internals::SelectTiles()
+{
+  constexpr int Batch = 64;
+  constexpr std::size_t Many = 32; // batches that are worth starting threads
+  const nurbs::SurfaceTable& table = this->Model.GetTable();
+  std::vector<nurbs::TileSelection> parts((table.Size() + Batch - 1) / Batch);
+  std::optional<vtkNURBSParallelScope> parallel;
+  if (parts.size() > Many)
+  {
+    parallel.emplace();
+  }
+  vtkNURBSParallelFor(
+    0, static_cast<std::int64_t>(parts.size()), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t p = first; p < last; ++p)
+      {
+        const int end = std::min(static_cast<int>(p + 1) * Batch, table.Size());
+        for (int s = static_cast<int>(p) * Batch; s < end; ++s)
+        {
+          if (!this->Looks.IsHidden(s))
+          {
+            nurbs::SelectTiles(table, s, this->View, parts[p]);
+          }
+        }
+      }
+    });
+  this->Selection = nurbs::TileSelection();
+  for (const nurbs::TileSelection& part : parts)
+  {
+    this->Selection.Tiles.insert(this->Selection.Tiles.end(), part.Tiles.begin(), part.Tiles.end());
+    this->Selection.Cells += part.Cells;
+    this->Selection.PixelError = std::max(this->Selection.PixelError, part.PixelError);
+  }
+}
+
 // Selects and evaluates the tiles that this view needs.
 void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
@@ -396,31 +453,8 @@ void vtkNURBSMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   }
   c.View = view;
   c.ViewedVersion = c.ModelVersion;
-  const nurbs::SurfaceTable& table = c.Model.GetTable();
-  constexpr int Batch = 64;
-  std::vector<nurbs::TileSelection> parts((table.Size() + Batch - 1) / Batch);
-  vtkNURBSParallelFor(
-    0, static_cast<std::int64_t>(parts.size()), [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t p = first; p < last; ++p)
-      {
-        const int end = std::min(static_cast<int>(p + 1) * Batch, table.Size());
-        for (int s = static_cast<int>(p) * Batch; s < end; ++s)
-        {
-          if (!c.Looks.IsHidden(s))
-          {
-            nurbs::SelectTiles(table, s, view, parts[p]);
-          }
-        }
-      }
-    });
-  c.Selection = nurbs::TileSelection();
-  for (const nurbs::TileSelection& part : parts)
-  {
-    c.Selection.Tiles.insert(c.Selection.Tiles.end(), part.Tiles.begin(), part.Tiles.end());
-    c.Selection.Cells += part.Cells;
-    c.Selection.PixelError = std::max(c.Selection.PixelError, part.PixelError);
-  }
-  c.TilesAreReady = c.Textures.Prepare(window, table, c.Selection.Tiles);
+  c.SelectTiles();
+  c.TilesAreReady = c.Textures.Prepare(window, c.Model.GetTable(), c.Selection.Tiles);
   if (!c.TilesAreReady)
   {
     vtkErrorMacro(
@@ -498,6 +532,11 @@ void vtkNURBSMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
       window->GetState()->vtkglLineWidth(actor->GetProperty()->GetLineWidth());
     }
     vtkOpenGLState::ScopedglEnableDisable culling(window->GetState(), GL_CULL_FACE);
+    vtkOpenGLState::ScopedglScissor scissor(window->GetState());
+    if (vtkHardwareSelector* selector = renderer->GetSelector())
+    {
+      ScissorTo(window->GetState(), selector->GetArea());
+    }
     if (this->DrawsExactly(actor))
     {
       window->GetState()->vtkglDisable(GL_CULL_FACE); // fragments know their side better

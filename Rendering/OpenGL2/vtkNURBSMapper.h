@@ -99,7 +99,7 @@ public:
    * again and with all values between levels, so that nothing jumps. Default 15; 0: always the whole.
    * GetCoarserLevels tells by how many levels the last frame was coarser, 0 to 1.5.
    */
-  vtkSetClampMacro(InteractiveFrameRate, double, 0.0, 1000.0);
+  vtkSetClampMacro(InteractiveFrameRate, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(InteractiveFrameRate, double);
   double GetCoarserLevels();
   ///@}

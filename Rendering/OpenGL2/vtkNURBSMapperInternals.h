@@ -49,6 +49,7 @@ struct vtkNURBSMapper::Internals
   vtkMTimeType ViewedVersion = 0;
   nurbs::TileSelection Selection;
   bool TilesAreReady = false;
+  void SelectTiles();
 
   nurbs::Vec3 Shift = nurbs::Vec3::Zero();
   std::string LastError;

@@ -185,6 +185,7 @@ bool vtkNURBSTileTextures::PlaceTiles(vtkOpenGLRenderWindow* window,
   {
     fits = true;
     jobs.clear();
+    jobs.reserve(sorted.size());
     this->TileTexels.clear();
     this->TileTexels.reserve(4 * sorted.size());
     for (std::size_t i = 0; i < sorted.size() && fits; ++i)
@@ -278,23 +279,27 @@ void vtkNURBSTileTextures::Evaluate(vtkOpenGLRenderWindow* window, std::vector<J
 void vtkNURBSTileTextures::RunBatch(
   vtkOpenGLRenderWindow* window, std::vector<Job>& jobs, std::size_t first, std::size_t last)
 {
-  std::vector<Job> batch(jobs.begin() + first, jobs.begin() + last);
   for (int dir = 0; dir < 2; ++dir)
   {
-    std::sort(batch.begin(), batch.end(),
-      [dir](const Job& a, const Job& b) { return a.Degree[dir] < b.Degree[dir]; });
-    this->RunPass(window, batch, dir);
+    const auto byDegree = [dir](
+                            const Job& a, const Job& b) { return a.Degree[dir] < b.Degree[dir]; };
+    const auto begin = jobs.begin() + first, end = jobs.begin() + last;
+    if (!std::is_sorted(begin, end, byDegree))
+    {
+      std::sort(begin, end, byDegree);
+    }
+    this->RunPass(window, &jobs[first], last - first, dir);
   }
 }
 
 void vtkNURBSTileTextures::RunPass(
-  vtkOpenGLRenderWindow* window, const std::vector<Job>& jobs, int dir)
+  vtkOpenGLRenderWindow* window, const Job* jobs, std::size_t count, int dir)
 {
   std::vector<int> texels;
-  texels.reserve(4 * jobs.size());
-  for (const Job& job : jobs)
+  texels.reserve(4 * count);
+  for (const Job* job = jobs; job != jobs + count; ++job)
   {
-    texels.insert(texels.end(), { job.Tile, job.X, job.Y, 0 });
+    texels.insert(texels.end(), { job->Tile, job->X, job->Y, 0 });
   }
   this->Jobs.Upload(texels.data(), 4 * texels.size());
   vtkOpenGLState* state = window->GetState();
@@ -309,9 +314,9 @@ void vtkNURBSTileTextures::RunPass(
   target->ActivateDrawBuffers(2);
   const int size[2] = { int(textures[0]->GetWidth()), int(textures[0]->GetHeight()) };
   state->vtkglViewport(0, 0, size[0], size[1]);
-  for (std::size_t i = 0, end = 0; i < jobs.size(); i = end)
+  for (std::size_t i = 0, end = 0; i < count; i = end)
   {
-    while (end < jobs.size() && jobs[end].Degree[dir] == jobs[i].Degree[dir])
+    while (end < count && jobs[end].Degree[dir] == jobs[i].Degree[dir])
     {
       ++end;
     }

@@ -97,7 +97,7 @@ private:
   void Evaluate(vtkOpenGLRenderWindow* window, std::vector<Job>& jobs);
   void RunBatch(
     vtkOpenGLRenderWindow* window, std::vector<Job>& jobs, std::size_t first, std::size_t last);
-  void RunPass(vtkOpenGLRenderWindow* window, const std::vector<Job>& jobs, int dir);
+  void RunPass(vtkOpenGLRenderWindow* window, const Job* jobs, std::size_t count, int dir);
   vtkShaderProgram* Program(vtkOpenGLRenderWindow* window, int dir, int degree);
 
   nurbs::TileAtlas Atlas;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times evaluation of a rational surface on the GPU, by de Boor's algorithm as
 // vtkNURBSTileTextures does it and by basis functions in many passes, and prints JSON; see --help.
+#include "DeviceTimer.h"
 #include "Measuring.h"
 #include "SurfaceTable.h"
 #include "TileSelection.h"
@@ -53,22 +54,36 @@ nurbs::Surface Sheet(int degree, int side)
   return s;
 }
 
+/// What a run takes, in seconds.
+struct Time
+{
+  double Elapsed = 0.0;
+  double Device = 0.0; ///< The device's own work; 0 if it does not tell.
+};
+
 /// Medians of runs with the device's work done: at least one, at most nine, a second in all.
 template <typename F>
-double Seconds(F&& work)
+Time TimeOf(F&& work)
 {
   work(); // shaders are compiled, textures allocated
   glFinish();
-  std::vector<double> taken;
-  for (double total = 0.0; taken.empty() || (taken.size() < 9 && total < 1.0);
-       total += taken.back())
+  DeviceTimer timer;
+  std::vector<double> elapsed, device;
+  for (double total = 0.0; elapsed.empty() || (elapsed.size() < 9 && total < 1.0);
+       total += elapsed.back())
   {
     const measuring::Stopwatch stopwatch;
     work();
     glFinish();
-    taken.push_back(stopwatch.Read().Elapsed);
+    elapsed.push_back(stopwatch.Read().Elapsed);
+    if (timer.IsAvailable())
+    {
+      timer.Start(elapsed.back());
+      work();
+    }
+    device.push_back(timer.Stop());
   }
-  return measuring::Median(taken);
+  return { measuring::Median(elapsed), measuring::Median(device) };
 }
 
 void Allocate(
@@ -153,12 +168,14 @@ void SetTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* t
 /// What a method took for one surface.
 struct Result
 {
-  double Seconds = 0.0, Vertices = 0.0, Bytes = 0.0;
+  Time Taken;
+  double Vertices = 0.0, Bytes = 0.0;
 };
 
 nlohmann::json ToJson(const Result& r)
 {
-  return { { "seconds", r.Seconds }, { "vertices", r.Vertices }, { "bytes", r.Bytes } };
+  return { { "seconds", r.Taken.Elapsed }, { "device", r.Taken.Device }, { "vertices", r.Vertices },
+    { "bytes", r.Bytes } };
 }
 
 /// vtkNURBSTileTextures, control points sent each time: about `side` x `side` vertices, a power of
@@ -185,7 +202,7 @@ Result DeBoor(vtkOpenGLRenderWindow* window, nurbs::SurfaceTable& table, int sid
   vtkNURBSTileTextures textures;
   textures.SetTable(table, std::vector<vtkNURBSTileTextures::SurfaceInfo>(1));
   Result result;
-  result.Seconds = Seconds([&] {
+  result.Taken = TimeOf([&] {
     textures.MoveSurfaces(table, { 0 });
     if (!textures.Prepare(window, table, all))
     {
@@ -254,7 +271,7 @@ public:
   Result Measure()
   {
     Result result;
-    result.Seconds = Seconds([this] { this->Run(); });
+    result.Taken = TimeOf([this] { this->Run(); });
     result.Vertices = double(this->Side) * this->Side;
     result.Bytes =
       32.0 * result.Vertices + 2.0 * (this->Degree + 1) * 8.0 * this->Functions * this->Side;
@@ -360,7 +377,7 @@ double CopyBandwidth(vtkOpenGLRenderWindow* window)
       gl_FragData[0] = texelFetch(a, ivec2(gl_FragCoord.xy), 0);
       gl_FragData[1] = texelFetch(b, ivec2(gl_FragCoord.xy), 0);
     })");
-  const double seconds = Seconds([&] {
+  const Time taken = TimeOf([&] {
     copy.Run({ textures[2], textures[3] }, [&](vtkShaderProgram* program) {
       SetTexture(program, "a", textures[0]);
       SetTexture(program, "b", textures[1]);
@@ -370,14 +387,15 @@ double CopyBandwidth(vtkOpenGLRenderWindow* window)
   {
     texture->ReleaseGraphicsResources(window);
   }
-  return 32.0 * Side * Side / seconds;
+  return 32.0 * Side * Side / (taken.Device > 0.0 ? taken.Device : taken.Elapsed);
 }
 
 /// Bytes a second that one thread writes when it copies memory.
 double MemoryBandwidth()
 {
   std::vector<char> from(std::size_t(256) << 20, 1), to(from.size());
-  return double(from.size()) / Seconds([&] { std::memcpy(to.data(), from.data(), from.size()); });
+  const auto copy = [&] { std::memcpy(to.data(), from.data(), from.size()); };
+  return double(from.size()) / measuring::MedianTime(5, copy).Elapsed;
 }
 
 struct Arguments
@@ -425,7 +443,7 @@ nlohmann::json Run(const Arguments& a)
         {
           BasisFunctions basis(window, table, side, local);
           const Result measured = basis.Measure();
-          last[local] = measured.Seconds;
+          last[local] = measured.Taken.Elapsed;
           nlohmann::json& entry = row[local ? "basis_local" : "basis"];
           entry = ToJson(measured);
           entry["error"] = basis.Error();

@@ -73,6 +73,7 @@ endif ()
 set(python "PYTHONPATH=${prefix}/lib/python3/dist-packages")
 if (EXISTS "${prefix}/lib/python3/dist-packages/vtknurbs" AND PYTHON)
   run("${CMAKE_COMMAND}" -E env "${python}" "${PYTHON}" "${scratch}/consumer/pipeline.py" "${prefix}" "${model}")
+  run("${CMAKE_COMMAND}" -E env "${python}" "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/TestPythonArrays.py")
 endif ()
 if (PVPYTHON)
   # ParaView's plugin where it was installed, with the libraries and the Python package beside it.

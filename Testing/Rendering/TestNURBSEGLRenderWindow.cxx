@@ -484,6 +484,7 @@ TEST(EGLRenderWindowDeathTest, NoDriverIsToldInWords)
   EXPECT_EXIT(
     {
       setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+      setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1); // goes before the other
       Window window = Create(10, 10);
       std::_Exit(window ? 1 : vtkNURBSEGLRenderWindow::CountDevices());
     },

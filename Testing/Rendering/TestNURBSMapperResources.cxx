@@ -2,6 +2,7 @@
 // What vtkNURBSMapper makes in OpenGL contexts, and that it deletes it, however windows, renderers,
 // actors and mappers come and go.
 #include "vtkCamera.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMapperScene.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -274,4 +275,29 @@ TEST(Resources, RenderersAndActorsShareAMapper)
   own->SetInputData(Model(1));
   other->SetMapper(own);
   EXPECT_EQ(vtkTestImage::MeanDifference(two, scene.Picture()), 0.0);
+}
+
+// A pick asks for a pixel, in many frames: nothing is shaded elsewhere, and what is hit is the same.
+TEST(Selection, DrawsNoMoreThanItReads)
+{
+  vtkMapperScene scene(Model(1), 100);
+  const std::vector<int> cells = scene.SelectCells();
+  const unsigned int place[2] = { 50, 40 };
+  ASSERT_GE(cells[50 + 40 * 100], 0);
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(scene.Renderer);
+  selector->SetArea(place[0], place[1], place[0], place[1]);
+  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  GLuint query = 0, samples = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_SAMPLES_PASSED, query);
+  EXPECT_TRUE(selector->CaptureBuffers());
+  glEndQuery(GL_SAMPLES_PASSED);
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &samples);
+  glDeleteQueries(1, &query);
+  EXPECT_EQ(selector->GetPixelInformation(place).AttributeID, cells[50 + 40 * 100]);
+  EXPECT_GT(samples, 0u);
+  EXPECT_LT(samples, 100u);
+  // The next picture is whole again.
+  EXPECT_GT(CountDrawn(scene.Picture()), 1000);
 }

@@ -7,8 +7,10 @@
 /// again are tiles of about as many vertices, by the mapper's passes of de Boor's algorithm; their
 /// time is given for the grid's number of vertices. Both give positions and normals: the wavelets
 /// transform two textures. Each figure is the median of several runs, until the device is done:
-/// elapsed time, of a software renderer the processor time of its threads.
+/// elapsed time, of a software renderer the processor time of its threads; of a GPU also that of
+/// its own work.
 #include "../../Rendering/OpenGL2/vtkNURBSTileTextures.h"
+#include "../Benchmarks/DeviceTimer.h"
 #include "../Benchmarks/Measuring.h"
 #include "vtkNURBSEGLRenderWindow.h"
 #include "vtkNURBSWaveletTextures.h"
@@ -54,15 +56,33 @@ bool IsSoftware()
     nullptr;
 }
 
-template <class Work>
-double Median(Work&& work)
+// Seconds by the clock, and of the device's own work; 0 if it does not tell.
+struct Time
 {
-  const measuring::Duration taken = measuring::MedianTime(Repeat, work);
-  return IsSoftware() ? taken.Processor : taken.Elapsed;
+  double Clock, Device;
+};
+
+template <class Work>
+Time Median(Work&& work)
+{
+  DeviceTimer timer;
+  std::vector<double> device;
+  const measuring::Duration taken = measuring::MedianTime(Repeat, [&]() {
+    work();
+    glFinish();
+  });
+  for (int i = 0; i < Repeat && timer.IsAvailable(); ++i)
+  {
+    timer.Start(taken.Elapsed);
+    work();
+    device.push_back(timer.Stop());
+  }
+  return { IsSoftware() ? taken.Processor : taken.Elapsed,
+    device.empty() ? 0.0 : measuring::Median(device) };
 }
 
-// Seconds a vertex of evaluating all spans of the surface in 2^log cells.
-double Evaluation(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table, int log)
+// Of evaluating all spans of the surface in 2^log cells, a vertex.
+Time Evaluation(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& table, int log)
 {
   vtkNURBSTileTextures textures;
   if (!textures.SetTable(table, { vtkNURBSTileTextures::SurfaceInfo() }))
@@ -87,7 +107,7 @@ double Evaluation(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& tabl
     }
   }
   long long before = 0;
-  const double seconds = Median([&]() {
+  const Time time = Median([&]() {
     textures.MoveSurfaces(table, { 0 }); // Forgets the tiles.
     before = textures.GetEvaluatedVertices();
     if (!textures.Prepare(window, table, tiles))
@@ -95,14 +115,13 @@ double Evaluation(vtkOpenGLRenderWindow* window, const nurbs::SurfaceTable& tabl
       std::printf("%s\n", textures.GetError().c_str());
       std::exit(1);
     }
-    glFinish();
   });
   const double vertices = double(textures.GetEvaluatedVertices() - before);
   textures.Release(window);
-  return seconds / vertices;
+  return { time.Clock / vertices, time.Device / vertices };
 }
 
-double Step(vtkOpenGLRenderWindow* window, nurbs::Wavelet kind, int intervals, bool synthesis)
+Time Step(vtkOpenGLRenderWindow* window, nurbs::Wavelet kind, int intervals, bool synthesis)
 {
   vtkNURBSWaveletTextures transform;
   vtkNURBSWaveletTextures::Rectangle r;
@@ -119,20 +138,42 @@ double Step(vtkOpenGLRenderWindow* window, nurbs::Wavelet kind, int intervals, b
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
     texture->Create2DFromRaw(width, width, 4, VTK_FLOAT, values.data());
   }
-  const double seconds = Median([&]() {
+  const Time time = Median([&]() {
     for (vtkTextureObject* texture : { grids[0].Get(), grids[1].Get() })
     {
       synthesis ? transform.Synthesise(window, texture, kind, { r })
                 : transform.Analyse(window, texture, kind, { r });
     }
-    glFinish();
   });
   transform.Release(window);
   for (vtkTextureObject* texture : { grids[0].Get(), grids[1].Get() })
   {
     texture->ReleaseGraphicsResources(window);
   }
-  return seconds;
+  return time;
+}
+
+struct Row
+{
+  int Intervals;
+  nurbs::Wavelet Kind;
+  Time Vertex, Finer, Coarser;
+};
+
+void Print(const std::vector<Row>& rows, const char* which, double Time::*time)
+{
+  std::printf("rational bicubic, 21 x 23 control points; positions and normals, ms%s\n", which);
+  std::printf("%9s %12s  %-13s %16s %16s\n", "grid", "evaluated", "wavelet", "finer", "coarser");
+  const char* const names[] = { "Haar", "interpolating", "lifted" };
+  for (const Row& row : rows)
+  {
+    const double samples = row.Intervals + 1.0, fewer = row.Intervals / 2 + 1.0;
+    const double finer = row.Vertex.*time * samples * samples;
+    const double coarser = row.Vertex.*time * fewer * fewer;
+    const double up = row.Finer.*time, down = row.Coarser.*time;
+    std::printf("%4d^2 %14.3f  %-13s %8.3f %6.1fx %8.3f %6.1fx\n", row.Intervals, 1e3 * finer,
+      names[int(row.Kind)], 1e3 * up, finer / up, 1e3 * down, coarser / down);
+  }
 }
 
 } // namespace
@@ -157,23 +198,22 @@ int main()
   nurbs::SurfaceTable table;
   table.Add(surface.View(), nurbs::Box2(nurbs::Vec2(0.0, 0.0), nurbs::Vec2(1.0, 1.0)));
   table.Fill(0, 1);
-  std::printf("rational bicubic, 21 x 23 control points; positions and normals, ms\n");
-  std::printf("%9s %12s  %-13s %16s %16s\n", "grid", "evaluated", "wavelet", "finer", "coarser");
-  const char* const names[] = { "Haar", "interpolating", "lifted" };
+  std::vector<Row> rows;
   for (int log = 3; log <= 6; ++log)
   {
-    const int n = 16 << log;
-    const double vertex = Evaluation(window, table, log);
-    const double finer = vertex * (n + 1) * (n + 1);
-    const double coarser = vertex * (n / 2 + 1) * (n / 2 + 1);
+    const Time vertex = Evaluation(window, table, log);
     for (const nurbs::Wavelet kind :
       { nurbs::Wavelet::Haar, nurbs::Wavelet::Interpolating, nurbs::Wavelet::Lifted })
     {
-      const double up = Step(window, kind, n, true);
-      const double down = Step(window, kind, n, false);
-      std::printf("%4d^2 %14.3f  %-13s %8.3f %6.1fx %8.3f %6.1fx\n", n, 1e3 * finer,
-        names[int(kind)], 1e3 * up, finer / up, 1e3 * down, coarser / down);
+      const int n = 16 << log;
+      rows.push_back(
+        { n, kind, vertex, Step(window, kind, n, true), Step(window, kind, n, false) });
     }
+  }
+  Print(rows, "", &Time::Clock);
+  if (rows[0].Vertex.Device > 0.0)
+  {
+    Print(rows, ", of the GPU alone", &Time::Device);
   }
   return 0;
 }

@@ -5,8 +5,10 @@
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
@@ -18,12 +20,20 @@
 #include "vtkPVExtractSelection.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
+#include "vtkPVSession.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkProcessModule.h"
 #include "vtkProperty.h"
 #include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+#include "vtkSelectionRepresentation.h"
 #include "vtkView.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 vtkStandardNewMacro(vtkNURBSSurfaceRepresentation);
@@ -32,6 +42,8 @@ namespace
 {
 
 using Attributes = vtkCompositeDataDisplayAttributes;
+
+constexpr int SelectionPort = 1; // Of what is delivered; 0 are the models.
 
 // What a block has of its own or of the blocks around it.
 struct Style
@@ -120,6 +132,57 @@ vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
   return origin;
 }
 
+// A selection of cells as something that ParaView delivers: a point (flat index of the block, or -1;
+// index of the cell; 0) each.
+vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (unsigned int n = 0; n < selection->GetNumberOfNodes(); ++n)
+  {
+    vtkInformation* about = selection->GetNode(n)->GetProperties();
+    const bool hasBlock = about->Has(vtkSelectionNode::COMPOSITE_INDEX());
+    const int block = hasBlock ? about->Get(vtkSelectionNode::COMPOSITE_INDEX()) : -1;
+    auto* ids = vtkDataArray::SafeDownCast(selection->GetNode(n)->GetSelectionList());
+    const int last = ids ? ids->GetNumberOfComponents() - 1 : 0;
+    for (vtkIdType id = 0; ids && id < ids->GetNumberOfTuples(); ++id)
+    {
+      points->InsertNextPoint(block, ids->GetComponent(id, last), 0.0);
+    }
+  }
+  auto packed = vtkSmartPointer<vtkPolyData>::New();
+  packed->SetPoints(points);
+  return packed;
+}
+
+// And back.
+vtkSmartPointer<vtkSelection> UnpackedSelection(vtkPolyData* packed)
+{
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  std::map<int, vtkSmartPointer<vtkIdTypeArray>> blocks;
+  for (vtkIdType n = 0; packed && n < packed->GetNumberOfPoints(); ++n)
+  {
+    double row[3];
+    packed->GetPoint(n, row);
+    auto& ids = blocks[static_cast<int>(row[0])];
+    ids = ids ? ids : vtkSmartPointer<vtkIdTypeArray>::New();
+    ids->InsertNextValue(static_cast<vtkIdType>(row[1]));
+  }
+  for (const auto& [block, ids] : blocks)
+  {
+    vtkNew<vtkSelectionNode> node;
+    node->SetContentType(vtkSelectionNode::INDICES);
+    node->SetFieldType(vtkSelectionNode::CELL);
+    node->SetSelectionList(ids);
+    if (block >= 0)
+    {
+      node->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), block);
+    }
+    selection->AddNode(node);
+  }
+  return selection;
+}
+
 } // namespace
 
 vtkNURBSSurfaceRepresentation::vtkNURBSSurfaceRepresentation()
@@ -167,9 +230,17 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
       return 0;
     }
     this->SetDrawnData(vtkPVView::GetDeliveredPiece(inInfo, this));
+    if (this->IsApart())
+    {
+      this->ShowDeliveredSelection(vtkPVView::GetDeliveredPiece(inInfo, this, SelectionPort));
+    }
     this->Actor->SetEnableLOD(0);
     this->UpdateColoringParameters();
     return 1;
+  }
+  if (request == vtkPVView::REQUEST_UPDATE() && this->IsApart())
+  {
+    this->RenewSelection();
   }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
@@ -177,6 +248,11 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {
+    if (this->IsApart())
+    {
+      vtkPVView::SetPiece(
+        inInfo, this, PackedSelection(this->FindSelectedFaces()), 0, SelectionPort);
+    }
     // Faces can't be cut between processes as polygons can.
     vtkPVRenderView::SetOrderedCompositingConfiguration(
       inInfo, this, vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION);
@@ -188,7 +264,10 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     this->Actor->GetMatrix(matrix);
     vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
     this->GetNURBSMapper()->SetLookLength(LengthOfAll(bounds));
-    this->ShowSelectedFaces();
+    if (!this->IsApart())
+    {
+      this->ShowSelectedFaces();
+    }
   }
   return 1;
 }
@@ -203,13 +282,40 @@ void vtkNURBSSurfaceRepresentation::SetDrawnData(vtkDataObject* delivered)
   }
 }
 
-// ParaView extracts what is selected of our input, and shows that by a representation beside this one.
-// It is looked for where the data are; a client that draws a server's models shows control points only,
-// as ParaView delivers what comes late only together with the models.
-void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
+// Whether the data are in another process than the user, or the other way round.
+bool vtkNURBSSurfaceRepresentation::IsApart()
 {
-  vtkNew<vtkSelection> selection;
-  std::vector<vtkMTimeType> times;
+  auto* session =
+    vtkPVSession::SafeDownCast(vtkProcessModule::GetProcessModule()->GetActiveSession());
+  return session &&
+    session->HasProcessRole(vtkPVSession::CLIENT) !=
+    session->HasProcessRole(vtkPVSession::DATA_SERVER);
+}
+
+// Has our pieces made anew where something about selections in the view changed, which all processes
+// see: what is selected only the one with the data knows.
+void vtkNURBSSurfaceRepresentation::RenewSelection()
+{
+  vtkMTimeType time = 0;
+  for (int i = 0; i < this->GetView()->GetNumberOfRepresentations(); ++i)
+  {
+    auto* selection =
+      vtkSelectionRepresentation::SafeDownCast(this->GetView()->GetRepresentation(i));
+    time = std::max(time, selection ? selection->GetMTime() : 0);
+  }
+  if (this->SelectionViewTime != time)
+  {
+    this->SelectionViewTime = time;
+    this->MarkModified();
+  }
+}
+
+// ParaView extracts what is selected of our input, and shows that by a representation beside this one.
+// It is looked for where the data are; elsewhere nothing is found.
+vtkSmartPointer<vtkSelection> vtkNURBSSurfaceRepresentation::FindSelectedFaces()
+{
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  this->FoundTimes.clear();
   vtkView* view = this->GetView();
   vtkAlgorithmOutput* input = OriginOf(this);
   for (int i = 0; input && view && i < view->GetNumberOfRepresentations(); ++i)
@@ -223,17 +329,33 @@ void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
       extraction->Update();
       auto* faces = vtkSelection::SafeDownCast(
         extraction->GetOutputDataObject(vtkPVExtractSelection::OUTPUT_PORT_SELECTION_IDS));
-      times.push_back(faces->GetMTime());
+      this->FoundTimes.push_back(faces->GetMTime());
       for (unsigned int n = 0; n < faces->GetNumberOfNodes(); ++n)
       {
         selection->AddNode(faces->GetNode(n));
       }
     }
   }
-  if (times != this->SelectionTimes)
+  return selection;
+}
+
+void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
+{
+  const vtkSmartPointer<vtkSelection> selection = this->FindSelectedFaces();
+  if (this->FoundTimes != this->SelectionTimes)
   {
-    this->SelectionTimes = times;
+    this->SelectionTimes = this->FoundTimes;
     this->Mapper->SetSelection(selection);
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::ShowDeliveredSelection(vtkDataObject* delivered)
+{
+  const vtkMTimeType time = delivered ? delivered->GetMTime() : 0;
+  if (this->DeliveredTime != time)
+  {
+    this->DeliveredTime = time;
+    this->Mapper->SetSelection(UnpackedSelection(vtkPolyData::SafeDownCast(delivered)));
   }
 }
 

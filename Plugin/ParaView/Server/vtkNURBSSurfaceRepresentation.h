@@ -5,8 +5,12 @@
  *
  * The models travel to where they are drawn as they are: control points, knots and trims. Colours by
  * cell arrays, opacity, material, transforms, and the visibility, colours and opacities of blocks work
- * as in vtkGeometryRepresentation. A selected cell is a CAD face, and is shown in the selection's colour. While the user moves the camera the
- * mapper itself keeps to InteractiveFrameRate; ParaView's own levels of detail are not asked for.
+ * as in vtkGeometryRepresentation. A selected cell is a CAD face, and is shown in the selection's
+ * colour. While the user moves the camera the mapper itself keeps to InteractiveFrameRate; ParaView's
+ * own levels of detail are not asked for.
+ *
+ * Where a client draws a server's models, which faces are selected travels as a second piece beside
+ * them. ParaView delivers all pieces of a representation or none: models are sent again with it.
  *
  * @sa vtkNURBSMapper
  */
@@ -15,10 +19,12 @@
 
 #include "vtkGeometryRepresentation.h"
 #include "vtkNURBSParaViewServerModule.h" // For export macro
+#include "vtkSmartPointer.h"              // For the selection
 
 #include <vector> // For the selections
 
 class vtkNURBSMapper;
+class vtkSelection;
 
 class VTKNURBSPARAVIEWSERVER_EXPORT vtkNURBSSurfaceRepresentation : public vtkGeometryRepresentation
 {
@@ -98,7 +104,11 @@ private:
   vtkNURBSMapper* GetNURBSMapper();
   void SetDrawnData(vtkDataObject* delivered);
   void UpdateBlockAttributes(vtkDataObject* delivered);
+  bool IsApart();
+  void RenewSelection();
+  vtkSmartPointer<vtkSelection> FindSelectedFaces();
   void ShowSelectedFaces();
+  void ShowDeliveredSelection(vtkDataObject* delivered);
   void UpdateLookTable();
   bool ColorsByArray(const char*& name, bool& direct);
 
@@ -108,7 +118,10 @@ private:
   double LookRange[2] = { 0.0, 1.0 };
   bool MapScalars = true;
   vtkMTimeType BlocksOf = 0;                ///< MTime of the data whose blocks the mapper knows.
+  std::vector<vtkMTimeType> FoundTimes;     ///< Of the selections that FindSelectedFaces found.
   std::vector<vtkMTimeType> SelectionTimes; ///< Of the selections that the mapper knows.
+  vtkMTimeType SelectionViewTime = 0;       ///< Of the representations of selections in the view.
+  vtkMTimeType DeliveredTime = 0;           ///< Of the delivered selection that the mapper knows.
 };
 
 #endif

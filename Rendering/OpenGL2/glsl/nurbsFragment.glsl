@@ -47,6 +47,7 @@ vec4 nurbsVertex;     // its place, as vertexMC
 vec3 nurbsNormal;     // its unit normal, outwards, in vertexMC's axes
 bool nurbsFront;      // whether the outside is seen
 vec3 nurbsSight;      // direction away from the eye
+mat2x3 nurbsSightChange; // with x and y on screen
 
 void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
 {
@@ -64,7 +65,10 @@ void nurbsShow(nurbsRay ray, nurbsTileInfo tile, nurbsFound found)
     : nurbsFaceTile.reversed        ? -normalize(normal)
                                     : normalize(normal);
   nurbsSight = cross(ray.x.xyz, ray.y.xyz);
-  nurbsSight *= sign(dot(nurbsSight, nurbsDepthAxis));
+  float away = sign(dot(nurbsSight, nurbsDepthAxis));
+  nurbsSight *= away;
+  // A pixel further, the planes are turned by the plane w = 0.
+  nurbsSightChange = away * mat2x3(cross(ray.y.xyz, ray.w.xyz), cross(ray.w.xyz, ray.x.xyz));
   nurbsFront = dot(nurbsNormal, nurbsSight) < 0.0;
 }
 

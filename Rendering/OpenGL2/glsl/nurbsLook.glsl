@@ -42,19 +42,32 @@ void nurbsSecond(out vec4 huu, out vec4 huv, out vec4 hvv)
   }
 }
 
-// Mean and Gaussian curvature, the former positive where the surface bends away from its outside.
-vec2 nurbsCurvature(vec3 normal)
+// Derivatives of the surface's point with the patch's parameters.
+struct nurbsBend
+{
+  vec3 su, sv, suu, suv, svv;
+};
+
+nurbsBend nurbsGetBend()
 {
   vec4 h = nurbsHere.jet.h, hu = nurbsHere.jet.hu, hv = nurbsHere.jet.hv, huu, huv, hvv;
   nurbsSecond(huu, huv, hvv);
   vec3 s = h.xyz / h.w;
-  vec3 su = (hu.xyz - hu.w * s) / h.w;
-  vec3 sv = (hv.xyz - hv.w * s) / h.w;
-  vec3 suu = (huu.xyz - huu.w * s - 2.0 * hu.w * su) / h.w;
-  vec3 suv = (huv.xyz - huv.w * s - hu.w * sv - hv.w * su) / h.w;
-  vec3 svv = (hvv.xyz - hvv.w * s - 2.0 * hv.w * sv) / h.w;
-  float e = dot(su, su), f = dot(su, sv), g = dot(sv, sv);
-  float l = dot(suu, normal), m = dot(suv, normal), n = dot(svv, normal);
+  nurbsBend b;
+  b.su = (hu.xyz - hu.w * s) / h.w;
+  b.sv = (hv.xyz - hv.w * s) / h.w;
+  b.suu = (huu.xyz - huu.w * s - 2.0 * hu.w * b.su) / h.w;
+  b.suv = (huv.xyz - huv.w * s - hu.w * b.sv - hv.w * b.su) / h.w;
+  b.svv = (hvv.xyz - hvv.w * s - 2.0 * hv.w * b.sv) / h.w;
+  return b;
+}
+
+// Mean and Gaussian curvature, the former positive where the surface bends away from its outside.
+vec2 nurbsCurvature(vec3 normal)
+{
+  nurbsBend b = nurbsGetBend();
+  float e = dot(b.su, b.su), f = dot(b.su, b.sv), g = dot(b.sv, b.sv);
+  float l = dot(b.suu, normal), m = dot(b.suv, normal), n = dot(b.svv, normal);
   float area = max(e * g - f * f, 1e-36);
   return vec2(-0.5 * (e * n - 2.0 * f * m + g * l), l * n - m * m) / area;
 }
@@ -69,13 +82,49 @@ vec3 nurbsLookUp(float value)
 float nurbsPhase; // stripes counted from where the direction is looked at
 float nurbsPhaseWidth; // how many of them a pixel sees
 
-// Sets the variables above; called in uniform control flow.
+// The unit normal's change with x and y on screen.
+mat2x3 nurbsTurn(vec3 normal)
+{
+  nurbsBend b = nurbsGetBend();
+  vec3 across = cross(b.su, b.sv); // along the normal or against it
+  float size = dot(across, normal);
+  mat2x3 turn = mat2x3(cross(b.suu, b.sv) + cross(b.su, b.suv),
+    cross(b.suv, b.sv) + cross(b.su, b.svv));
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    turn[dir] = size == 0.0 ? vec3(0.0) : (turn[dir] - dot(turn[dir], normal) * normal) / size;
+  }
+  return turn * nurbsPerPixel;
+}
+
+// Sets the variables above. Not by dFdx: a neighbouring pixel may show something else, or nothing.
 void nurbsBeginLook()
 {
+  if (nurbsLookKind != 5 && nurbsLookKind != 6)
+  {
+    return;
+  }
   vec3 normal = nurbsNormal;
-  vec3 line = nurbsLookKind == 5 ? reflect(normalize(nurbsSight), normal) : normal;
-  nurbsPhase = acos(clamp(dot(line, nurbsLookDirection), -1.0, 1.0)) / 3.14159265 * nurbsStripes;
-  nurbsPhaseWidth = fwidth(nurbsPhase);
+  vec3 line = normal;
+  mat2x3 change = nurbsTurn(normal);
+  if (nurbsLookKind == 5)
+  {
+    float size = length(nurbsSight);
+    vec3 sight = nurbsSight / size;
+    line = reflect(sight, normal);
+    for (int dir = 0; dir < 2; ++dir)
+    {
+      vec3 step = nurbsSightChange[dir] / size;
+      step -= dot(step, sight) * sight;
+      vec3 turn = change[dir];
+      change[dir] = reflect(step, normal) -
+        2.0 * (dot(sight, turn) * normal + dot(sight, normal) * turn);
+    }
+  }
+  float cosine = clamp(dot(line, nurbsLookDirection), -1.0, 1.0);
+  vec2 slope = nurbsLookDirection * change / sqrt(max(1.0 - cosine * cosine, 1e-12));
+  nurbsPhase = acos(cosine) / 3.14159265 * nurbsStripes;
+  nurbsPhaseWidth = (abs(slope.x) + abs(slope.y)) / 3.14159265 * nurbsStripes;
 }
 
 // Black and white by turns, grey where they are finer than pixels.

@@ -23,6 +23,12 @@ def picture(name):
     return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
 
 
+def selected(name):
+    """Pixels in the selection's colour, which light shades and tints."""
+    red, green, blue = picture(name)[:, :3].T
+    return (abs(red - blue) < 25) & (red > 100) & (green < 10)
+
+
 with socket.socket() as free:
     free.bind(("localhost", 0))
     port = free.getsockname()[1]
@@ -68,6 +74,18 @@ try:
     differ = (abs(here - there) > 2).any(axis=1).sum()
     print("drawn by the client and by the server: %d pixels differ" % differ)
     assert differ < 20
+
+    # A selected face has its colour, whoever draws, and loses it.
+    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+    there = selected("remote-selected-there.png")
+    view.RemoteRenderThreshold = 1000.0
+    here = selected("remote-selected-here.png")
+    print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
+    assert there.sum() > 800 and (here != there).sum() < 20
+    simple.ClearSelection(reader)
+    assert not selected("remote-unselected.png").any()
+    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+    assert (selected("remote-again.png") != here).sum() < 20
     sizes = [p.GetDataInformation().GetMemorySize() for p in (reader, mesh)]
     print("%d KiB as surfaces, %d KiB as triangles within 1e-4" % tuple(sizes))
     assert sizes[0] < sizes[1]

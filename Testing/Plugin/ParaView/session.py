@@ -15,6 +15,7 @@ from paraview import simple  # noqa: E402
 LINKRODS = "/usr/share/opencascade/data/step/linkrods.step"
 SCREW = "/usr/share/opencascade/data/step/screw.step"
 PLUGIN, FOLDER = sys.argv[1:3]
+BASELINES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../Data/Baselines")
 
 # Every filter of the plugin whose input is a model.
 FILTERS = [
@@ -83,3 +84,28 @@ class Messages:
 
         vtkOutputWindow.SetInstance(self.kept)
         self.text = self.window.GetOutput()
+
+
+def baseline_difference(file, name):
+    """About the number of pixels in which a PNG differs from Data/Baselines/ParaView-<name>.png.
+
+    By vtkImageDifference, which forgives shifts by a pixel, as between two drivers' rasterisers, and
+    here differences of colour up to 16 of 255.
+    """
+    from vtkmodules.vtkImagingCore import vtkImageDifference
+    from vtkmodules.vtkIOImage import vtkPNGReader
+
+    images = []
+    for png in (file, os.path.join(BASELINES, "ParaView-%s.png" % name)):
+        assert os.path.exists(png), png
+        reader = vtkPNGReader()
+        reader.SetFileName(png)
+        reader.Update()
+        images.append(reader.GetOutput())
+    assert images[0].GetDimensions() == images[1].GetDimensions(), name
+    difference = vtkImageDifference()
+    difference.SetInputData(images[0])
+    difference.SetImageData(images[1])
+    difference.SetThreshold(16)
+    difference.Update()
+    return difference.GetThresholdedError()
