@@ -80,11 +80,6 @@ vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* ou
 
 vtkNURBSPieces::~vtkNURBSPieces() = default;
 
-int vtkNURBSPieces::GetProcesses() const
-{
-  return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
-}
-
 bool vtkNURBSPieces::IsPieceAsked(vtkInformation* output, int& piece, int& pieces)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;

@@ -57,8 +57,6 @@ public:
 
   /// True if other processes work on the same request.
   bool IsParallel() const { return this->Controller != nullptr; }
-  int GetRank() const { return this->Rank; }
-  int GetProcesses() const;
 
   enum Scope
   {

@@ -7,7 +7,7 @@
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiPieceDataSet.h"
-#include "vtkNURBSPieces.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
@@ -68,7 +68,7 @@ int vtkNURBSModelBlocks::FillInputPortInformation(int, vtkInformation* info)
 }
 
 int vtkNURBSModelBlocks::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   auto* input = vtkDataObject::GetData(inputs[0]);
   auto* output = vtkMultiBlockDataSet::GetData(outputs);
@@ -97,10 +97,11 @@ int vtkNURBSModelBlocks::RequestData(
     mark->SetName(SingleBlock());
     output->GetFieldData()->AddArray(mark);
   }
-  const vtkNURBSPieces pieces(request, outputs);
-  if (pieces.IsParallel())
+  // Representations update us for what they have, without a word of pieces.
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  if (all && all->GetNumberOfProcesses() > 1)
   {
-    SeatPieces(output, unsigned(pieces.GetRank()), unsigned(pieces.GetProcesses()));
+    SeatPieces(output, unsigned(all->GetLocalProcessId()), unsigned(all->GetNumberOfProcesses()));
   }
   return 1;
 }
