@@ -106,6 +106,9 @@ struct AssembleOptions
   bool CheckEdges = true;
   /// Gap of a loop, as a part of the domain's size, up to which it only warns. Default 1e-2.
   double GapLimit = 1e-2;
+  /// Box of the nets of the whole model, if the arrays are a piece of one: sizes that are told from
+  /// nothing are the same for all pieces then. Empty: the arrays are the whole.
+  Box3 Around;
 };
 
 /// Checks all arrays and assembles a model of views into them. Never throws on bad data; the

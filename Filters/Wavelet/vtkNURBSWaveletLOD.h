@@ -210,9 +210,9 @@ private:
 
   struct Pyramids;
   struct Meshes;
-  bool Analyse(vtkDataObject* input);
+  bool Analyse(vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs);
   bool Mesh(Meshes& meshes);
-  void FillOutputs(Meshes& meshes, vtkDataObject* input, vtkDataObject* output);
+  void FillOutputs(Meshes& meshes, vtkDataObject* output);
   void Summarize(const Meshes& meshes);
   void ClearResults();
 

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pvserver of its own: models travel to the client and are drawn there, or on the server."""
+"""A pvserver of its own: models travel to the client and are drawn there, or on the server.
+
+Run as `pvpython TestClientServer.py PLUGIN FOLDER SERVER`; SERVER is a command line, pvserver, or mpirun
+and pvserver.
+"""
+import os
 import socket
 import subprocess
 import sys
@@ -28,8 +33,11 @@ with socket.socket() as free:
     free.bind(("localhost", 0))
     port = free.getsockname()[1]
 # It ends with the client's connection, at the end of this script.
+# pvpython is a process of MPI itself, and tells so to what it starts; mpirun is to start anew.
+alone = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "OPAL_"))}
 server = subprocess.Popen(
-    ["timeout", "100", sys.argv[3], "--server-port=%d" % port],
+    ["timeout", "100"] + sys.argv[3].split() + ["--server-port=%d" % port],
+    env=alone,
     stdout=subprocess.PIPE,
     universal_newlines=True,
 )
