@@ -6,6 +6,7 @@
 #include "vtkNURBSCADTree.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
+#include "vtkNURBSPieces.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
@@ -72,6 +73,7 @@ std::string FaceLine(
 struct vtkNURBSCADWriter::Work
 {
   nurbs::CADFormat Format = nurbs::CADFormat::STEP;
+  vtkDataObject* Input = nullptr;
   std::vector<vtkNURBSCADTree::Block> Blocks;
   std::vector<double> Scales; // Millimetres a unit of each block.
   std::vector<nurbs::BuiltShape> Shapes;
@@ -297,7 +299,7 @@ bool vtkNURBSCADWriter::Save(Work& work)
       vtkNURBSCADTree::DescribeFaces(work.Blocks[i].Grid, work.Shapes[i].FaceOf, part);
     }
   }
-  vtkNURBSCADTree::MakeNodes(this->GetInput(), work.Blocks, parts, stem, work.Content);
+  vtkNURBSCADTree::MakeNodes(work.Input, work.Blocks, parts, stem, work.Content);
   try
   {
     nurbs::SaveCADFile(work.Content, work.Format, this->FileName, [this](double done) {
@@ -321,7 +323,13 @@ void vtkNURBSCADWriter::WriteData()
   {
     return;
   }
-  const std::string problem = vtkNURBSCADTree::Find(this->GetInput(), work.Blocks);
+  vtkNURBSPieces pieces; // Partitions of a block are put together where they are parts of a model.
+  std::string problem;
+  work.Input = pieces.Gather(this->GetInput(), problem);
+  if (problem.empty())
+  {
+    problem = vtkNURBSCADTree::Find(work.Input, work.Blocks);
+  }
   if (!problem.empty())
   {
     this->Fail(vtkErrorCode::UserError, problem);
@@ -340,9 +348,9 @@ void vtkNURBSCADWriter::WriteData()
     }
     this->CheckShapes(work);
   }
-  catch (const std::exception& problem)
+  catch (const std::exception& failure)
   {
-    this->Fail(vtkErrorCode::UserError, problem.what());
+    this->Fail(vtkErrorCode::UserError, failure.what());
     return;
   }
   if (!this->Save(work))

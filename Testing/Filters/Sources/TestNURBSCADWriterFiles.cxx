@@ -149,6 +149,49 @@ TEST(CADWriterFiles, ColoursComeBackFromIGES)
   }
 }
 
+TEST(CADWriterFiles, PiecesFitTogether)
+{
+  vtkNew<vtkPartitionedDataSetCollection> pieces;
+  pieces->SetNumberOfPartitionedDataSets(1);
+  vtkNew<vtkNURBSShapeSource> source;
+  source->SetShapeToCylinder();
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    source->UpdatePiece(piece, 2, 0);
+    vtkNew<vtkUnstructuredGrid> copy;
+    copy->DeepCopy(source->GetOutput());
+    ASSERT_GT(copy->GetNumberOfCells(), 0);
+    pieces->SetPartition(0, piece, copy);
+  }
+  const TopoDS_Shape whole = ReadShape(Write(Shape(vtkNURBSShapeSource::CYLINDER), "whole.step"));
+  const TopoDS_Shape parted = ReadShape(Write(pieces, "pieces.step"));
+  EXPECT_EQ(CountOf(whole, TopAbs_SOLID), 1);
+  EXPECT_EQ(CountOf(parted, TopAbs_SOLID), 1);
+  EXPECT_EQ(SharedEdges(parted), SharedEdges(whole));
+}
+
+TEST(CADWriterFiles, OneGridInTwoPlaces)
+{
+  const auto part = Shape(vtkNURBSShapeSource::CYLINDER);
+  vtkNew<vtkPartitionedDataSetCollection> both;
+  both->SetNumberOfPartitionedDataSets(2);
+  const char* names[] = { "left", "right" };
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    both->SetPartition(i, 0, part);
+    both->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), names[i]);
+  }
+  vtkNew<vtkNURBSCADReader> reader;
+  reader->SetFileName(Write(both, "both.step").c_str());
+  reader->Update();
+  auto* read = vtkPartitionedDataSetCollection::SafeDownCast(reader->GetOutputDataObject(0));
+  ASSERT_EQ(read->GetNumberOfPartitionedDataSets(), 2u);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    EXPECT_STREQ(read->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()), names[i]);
+  }
+}
+
 TEST(CADWriterFiles, ProgressGrows)
 {
   vtkNew<vtkNURBSCADWriter> writer;
