@@ -180,6 +180,7 @@ public:
    */
   vtkGetMacro(NumberOfMovedPoints, vtkIdType);
 
+  /// The lattice's included.
   vtkMTimeType GetMTime() override;
 
 protected:

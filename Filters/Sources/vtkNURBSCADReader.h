@@ -46,6 +46,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What LengthUnit may be.
   enum LengthUnits
   {
     MILLIMETRES = 0,

@@ -53,6 +53,7 @@ public:
   vtkTypeMacro(vtkNURBSTessellator, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,
@@ -118,6 +119,7 @@ public:
   vtkGetVector2Macro(ViewportSize, int);
   ///@}
 
+  /// What Method may be.
   enum Methods
   {
     KD_TREE = 0,
@@ -138,6 +140,7 @@ public:
   void SetMethodToBinary() { this->SetMethod(BINARY); }
   ///@}
 
+  /// What ErrorMode may be.
   enum ErrorModes
   {
     GUARANTEED = 0,
@@ -155,6 +158,7 @@ public:
   void SetErrorModeToEstimated() { this->SetErrorMode(ESTIMATED); }
   ///@}
 
+  /// What CurveSubdivision may be.
   enum CurveSubdivisions
   {
     MIDPOINT = 0,
@@ -172,6 +176,7 @@ public:
   void SetCurveSubdivisionToArbitrary() { this->SetCurveSubdivision(ARBITRARY); }
   ///@}
 
+  /// What CurveMeasure may be.
   enum CurveMeasures
   {
     LINE = 0,

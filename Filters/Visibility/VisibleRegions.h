@@ -15,6 +15,7 @@ namespace nurbs
 
 class ModelBuilder;
 
+/// Where from, how exact, what is wanted.
 struct VisibleRegionOptions
 {
   Viewer View;
@@ -34,6 +35,7 @@ struct VisibleRegionOptions
   std::function<bool(double)> Progress;
 };
 
+/// What is visible of a face.
 struct FaceRegion
 {
   std::vector<RegionLoop> Loops; ///< Empty: no part of the face.
@@ -55,6 +57,7 @@ struct DrawnLine
   std::vector<ContourPoint> Points;
 };
 
+/// Regions of all faces and the lines of the drawing.
 struct VisibleRegions
 {
   std::optional<ImagePlane> Image; ///< What was projected to.
