@@ -583,19 +583,7 @@ RegionLoop FaceCells::LoopOf(std::vector<HalfEdge> halves) const
         this->Places[this->Snapped.Edges[steps[k].Half / 2][1 - steps[k].Half % 2]]);
     }
   }
-  // A polyline ends where the trim curve beside it does, to the last bit.
-  for (std::size_t k = 0; k < out.size() && out.size() > 1; ++k)
-  {
-    RegionPiece& next = out[(k + 1) % out.size()];
-    if (out[k].Curve < 0 && next.Curve >= 0)
-    {
-      out[k].Polyline.back() = EndOfPiece(this->Data, next, false);
-    }
-    else if (out[k].Curve >= 0 && next.Curve < 0)
-    {
-      next.Polyline.front() = EndOfPiece(this->Data, out[k], true);
-    }
-  }
+  JoinPolylines(this->Data, out);
   return out;
 }
 

@@ -46,8 +46,11 @@ std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane&
 /// Drops loops of a face that enclose no area in (u, v): a model's loops must enclose some.
 void DropFlatLoops(const Model& model, std::int64_t face, std::vector<RegionLoop>& loops);
 
+/// Moves ends of polylines to where the pieces beside them end.
+void JoinPolylines(const Model& model, RegionLoop& loop);
+
 /// Cuts pieces of trim curves wherever a piece of another use of the same edge ends, so that faces
-/// share whole edges.
+/// share whole edges. Ends that parameters do not tell apart become one, and pieces between them go.
 void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions);
 
 } // namespace nurbs

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 
 namespace nurbs
@@ -14,6 +16,8 @@ namespace
 
 // Shares of a trim curve that are nearer to each other are the same.
 constexpr double SameShare = 1e-12;
+// Nor are those told apart that are so many roundings of the parameter from each other.
+constexpr double RoundingSteps = 16.0 * std::numeric_limits<double>::epsilon();
 // What loops enclose, as a share of their length squared, that counts as nothing: a little more than
 // what the checks of a model (ModelChecks.cxx) complain of.
 constexpr double FlatShare = 1e-11;
@@ -61,67 +65,133 @@ Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last)
   return Evaluate(curve, share == 1.0 ? domain.Max : domain.Min + share * domain.Length());
 }
 
+namespace
+{
+
+// Where uses of an edge are cut: shares in order, 0 and 1 among them, no two of them as near to each other
+// as parameters are told apart.
+struct EdgeCuts
+{
+  std::vector<double> Shares{ 0.0, 1.0 };
+  double Apart = SameShare;
+
+  void Add(const RegionPiece& piece, const Interval& domain)
+  {
+    this->Shares.insert(this->Shares.end(), { piece.From, piece.To });
+    const double largest = std::max(std::abs(domain.Min), std::abs(domain.Max));
+    this->Apart = std::max(this->Apart, RoundingSteps * largest / domain.Length());
+  }
+  void Unite()
+  {
+    std::sort(this->Shares.begin(), this->Shares.end());
+    std::vector<double> kept;
+    for (const double share : this->Shares)
+    {
+      if (kept.empty() || share - kept.back() > this->Apart)
+      {
+        kept.push_back(share);
+      }
+    }
+    if (kept.size() > 1 && 1.0 - kept.back() <= this->Apart)
+    {
+      kept.pop_back();
+    }
+    kept.push_back(1.0);
+    this->Shares = std::move(kept);
+  }
+  double Nearest(double share) const
+  {
+    const auto above = std::lower_bound(this->Shares.begin(), this->Shares.end() - 1, share);
+    return above != this->Shares.begin() && share - *(above - 1) < *above - share ? *(above - 1)
+                                                                                  : *above;
+  }
+};
+
+// Cuts a piece of a trim curve; nothing is left of one that is too short to have two ends.
+void AddParts(const EdgeCuts& cuts, RegionPiece piece, RegionLoop& out)
+{
+  piece.From = cuts.Nearest(piece.From);
+  piece.To = cuts.Nearest(piece.To);
+  const double low = std::min(piece.From, piece.To);
+  const double high = std::max(piece.From, piece.To);
+  std::vector<double> within;
+  std::copy_if(cuts.Shares.begin(), cuts.Shares.end(), std::back_inserter(within),
+    [&](double share) { return share > low && share < high; });
+  if (piece.From > piece.To)
+  {
+    std::reverse(within.begin(), within.end());
+  }
+  for (const double share : within)
+  {
+    RegionPiece part = piece;
+    part.To = piece.From = share;
+    out.push_back(part);
+  }
+  if (low < high)
+  {
+    out.push_back(piece);
+  }
+}
+
+} // namespace
+
 void CutAtSharedEnds(const ViewLines& lines, std::vector<std::vector<RegionLoop>>& regions)
 {
   const Model& model = lines.Whole.Data;
-  std::map<std::int64_t, std::vector<double>> ends;
-  const auto forPieces = [&](const auto& visit) {
+  std::map<std::int64_t, EdgeCuts> cuts;
+  const auto forLoops = [&](const auto& visit) {
     for (std::vector<RegionLoop>& region : regions)
     {
-      for (RegionLoop& loop : region)
-      {
-        visit(loop);
-      }
+      std::for_each(region.begin(), region.end(), visit);
     }
   };
-  forPieces([&](const RegionLoop& loop) {
+  forLoops([&](const RegionLoop& loop) {
     for (const RegionPiece& piece : loop)
     {
       if (piece.Curve >= 0)
       {
-        std::vector<double>& at = ends[model.TrimCurves[piece.Curve].Edge];
-        at.insert(at.end(), { piece.From, piece.To });
+        const TrimCurve& curve = model.TrimCurves[piece.Curve];
+        cuts[curve.Edge].Add(piece, curve.Geometry.Domain());
       }
     }
   });
-  for (auto& [edge, at] : ends)
+  for (auto& one : cuts)
   {
-    std::sort(at.begin(), at.end());
-    at.erase(
-      std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < SameShare; }),
-      at.end());
+    one.second.Unite();
   }
-  forPieces([&](RegionLoop& loop) {
+  forLoops([&](RegionLoop& loop) {
     RegionLoop out;
-    for (RegionPiece piece : loop)
+    for (RegionPiece& piece : loop)
     {
       if (piece.Curve >= 0)
       {
-        const std::vector<double>& at = ends[model.TrimCurves[piece.Curve].Edge];
-        std::vector<double> cuts;
-        for (const double share : at)
-        {
-          if (share > std::min(piece.From, piece.To) + SameShare &&
-            share < std::max(piece.From, piece.To) - SameShare)
-          {
-            cuts.push_back(share);
-          }
-        }
-        if (piece.From > piece.To)
-        {
-          std::reverse(cuts.begin(), cuts.end());
-        }
-        for (const double share : cuts)
-        {
-          RegionPiece part = piece;
-          part.To = piece.From = share;
-          out.push_back(part);
-        }
+        AddParts(cuts[model.TrimCurves[piece.Curve].Edge], piece, out);
       }
-      out.push_back(std::move(piece));
+      else
+      {
+        out.push_back(std::move(piece));
+      }
     }
+    JoinPolylines(model, out);
     loop = std::move(out);
   });
+}
+
+// Polylines end where what is beside them does, to the last bit.
+void JoinPolylines(const Model& model, RegionLoop& loop)
+{
+  for (std::size_t k = 0; k < loop.size() && loop.size() > 1; ++k)
+  {
+    RegionPiece& next = loop[(k + 1) % loop.size()];
+    if (loop[k].Curve < 0)
+    {
+      loop[k].Polyline.back() = EndOfPiece(model, next, false);
+    }
+    else if (next.Curve < 0)
+    {
+      next.Polyline.front() = EndOfPiece(model, loop[k], true);
+    }
+  }
 }
 
 void DropFlatLoops(const Model& model, std::int64_t face, std::vector<RegionLoop>& loops)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSDrawingLines.h"
 
+#include "CoincidentLines.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -158,4 +159,23 @@ std::string vtkNURBSDrawingLines::Collect(vtkDataObject* input, bool hidden, Lin
   }
   NumberGroups(lines);
   return "";
+}
+
+void vtkNURBSDrawingLines::DropHiddenCopies(Lines& lines, double tolerance)
+{
+  std::vector<char> isVisible;
+  for (const Origin& origin : lines.Origins)
+  {
+    isVisible.push_back(origin.Visible);
+  }
+  if (std::find(isVisible.begin(), isVisible.end(), 0) == isVisible.end())
+  {
+    return;
+  }
+  std::vector<Origin> origins;
+  for (const std::size_t line : nurbs::DropHiddenCopies(lines.Geometry, isVisible, tolerance))
+  {
+    origins.push_back(lines.Origins[line]);
+  }
+  lines.Origins = std::move(origins);
 }

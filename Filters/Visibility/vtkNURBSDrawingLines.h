@@ -42,6 +42,9 @@ struct Lines
 /// wrong, or "".
 std::string Collect(vtkDataObject* input, bool hidden, Lines& lines);
 
+/// Takes away of hidden lines what other lines draw already, within a tolerance.
+void DropHiddenCopies(Lines& lines, double tolerance);
+
 } // namespace vtkNURBSDrawingLines
 
 #endif

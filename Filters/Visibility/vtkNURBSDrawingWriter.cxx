@@ -403,6 +403,7 @@ void vtkNURBSDrawingWriter::WriteData()
     return;
   }
   work.Tolerance = this->Tolerance * (this->ToleranceMode == RELATIVE ? diagonal : 1.0);
+  vtkNURBSDrawingLines::DropHiddenCopies(work.Lines, work.Tolerance);
   work.Drawing.Title = Utf8(this->Title ? this->Title : StemOf(this->FileName).c_str());
   work.Drawing.Source = Utf8(this->Source);
   work.Drawing.View = Utf8(this->View);

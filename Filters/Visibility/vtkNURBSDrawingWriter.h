@@ -129,7 +129,8 @@ public:
 
   ///@{
   /**
-   * Whether hidden lines are drawn. Default: on.
+   * Whether hidden lines are drawn, but where another line is, within Tolerance: a visible one, or a
+   * hidden one that is drawn already. Default: on.
    */
   vtkSetMacro(HiddenLines, bool);
   vtkGetMacro(HiddenLines, bool);

@@ -259,8 +259,9 @@ struct Rectangle
 };
 
 // A plane [0, 4] x [0, 2] whose parameters are lengths, with rectangular loops: the first one is the
-// border, others are holes.
-void AddPlate(nurbs::ModelBuilder& builder, const std::vector<Rectangle>& loops)
+// border, others are holes. `range`: of the trim curves' parameters.
+void AddPlate(nurbs::ModelBuilder& builder, const std::vector<Rectangle>& loops,
+  const nurbs::Interval& range = { 0.0, 1.0 })
 {
   nurbs::Surface plate;
   plate.Degree[0] = plate.Degree[1] = 1;
@@ -279,7 +280,7 @@ void AddPlate(nurbs::ModelBuilder& builder, const std::vector<Rectangle>& loops)
     {
       const int from = isHole ? 3 - k : k;
       const int to = isHole ? (6 - k) % 4 : (k + 1) % 4;
-      builder.AddTrimCurve(nurbs::TrimLine(corners[from], corners[to], { 0, 1 }).View(), -1, false);
+      builder.AddTrimCurve(nurbs::TrimLine(corners[from], corners[to], range).View(), -1, false);
     }
   }
 }
@@ -298,5 +299,38 @@ TEST(VisibleRegions, HolesNarrowerThanThePrecision)
     const double exact = 8.0 - 0.005 * 0.004 - 0.004 * 1.0;
     EXPECT_NEAR(holes.VisibleArea(), exact, 1e-9);
     EXPECT_TRUE(holes.Result.Faces[0].IsWhole);
+  }
+}
+
+// Of a trim curve whose parameters are large, as those of files are, only so many places are told apart.
+TEST(VisibleRegions, CutsThatParametersDoNotTellApart)
+{
+  const nurbs::Interval range{ -291599.719406, -291599.669406 };
+  nurbs::ModelBuilder builder;
+  AddPlate(builder, { { Vec2(0, 0), Vec2(4, 2) } }, range);
+  const nurbs::AssembledModel made = nurbs::AssembleModel(builder.Arrays());
+  nurbs::ViewLines lines;
+  lines.Whole = nurbs::CompleteModel(made.Model, made.FaceErrors);
+  nurbs::RegionLoop loop(4);
+  const double shares[] = { 0.0, 0.26, 0.26 + 1e-11, 1.0 - 1e-12 };
+  for (int k = 0; k < 3; ++k)
+  {
+    loop[k].Curve = 0;
+    loop[k].From = shares[k];
+    loop[k].To = shares[k + 1];
+  }
+  loop[3].Polyline = { nurbs::EndOfPiece(made.Model, loop[2], true), Vec2(2, 1), Vec2(0, 0) };
+  std::vector<std::vector<nurbs::RegionLoop>> regions{ { loop } };
+  nurbs::CutAtSharedEnds(lines, regions);
+  const nurbs::RegionLoop& cut = regions[0][0];
+  ASSERT_EQ(cut.size(), 3u);
+  EXPECT_EQ(cut[0].To, cut[1].From);
+  EXPECT_EQ(cut[1].To, 1.0);
+  EXPECT_EQ(cut[2].Polyline.front(), nurbs::EndOfPiece(made.Model, cut[1], true));
+  for (int k = 0; k < 2; ++k)
+  {
+    const double low = range.Min + cut[k].From * range.Length();
+    const double high = cut[k].To == 1.0 ? range.Max : range.Min + cut[k].To * range.Length();
+    EXPECT_NO_THROW(nurbs::Restrict(made.Model.TrimCurves[0].Geometry, low, high));
   }
 }
