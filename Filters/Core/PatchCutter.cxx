@@ -51,6 +51,13 @@ struct TangentFrame
     this->Reciprocal[1] = inverse * this->Normal.cross(tangents[0]);
     this->Dual = inverse * this->Normal;
   }
+
+  /// Along the tangents and the normal.
+  Vec3 Coordinates(const Vec3& vector) const
+  {
+    return Vec3(
+      this->Reciprocal[0].dot(vector), this->Reciprocal[1].dot(vector), this->Dual.dot(vector));
+  }
 };
 
 /// Largest coordinates of the differences of derivatives in a tangent frame.
@@ -60,28 +67,20 @@ struct VariationBound
     Eigen::Matrix2d::Zero();  ///< On a tangent (row), of a derivative (column).
   Vec2 Across = Vec2::Zero(); ///< On the normal.
 
-  void Extend(const TangentFrame& frame, int d, const Vec3& difference)
+  /// `difference`: in coordinates of the frame, see TangentFrame::Coordinates.
+  void Extend(int d, const Vec3& difference)
   {
-    this->Along(0, d) = std::max(this->Along(0, d), std::abs(frame.Reciprocal[0].dot(difference)));
-    this->Along(1, d) = std::max(this->Along(1, d), std::abs(frame.Reciprocal[1].dot(difference)));
-    this->Across[d] = std::max(this->Across[d], std::abs(frame.Dual.dot(difference)));
+    this->Along(0, d) = std::max(this->Along(0, d), std::abs(difference[0]));
+    this->Along(1, d) = std::max(this->Along(1, d), std::abs(difference[1]));
+    this->Across[d] = std::max(this->Across[d], std::abs(difference[2]));
   }
 };
 
-/// Control vectors of a derivative: it lies in their hull.
-struct DerivativeNet
-{
-  int Count[2]; ///< Size of the net.
-  std::vector<Vec3> Vectors;
-};
-
-/// De Casteljau's algorithm at the middle, for a net of any vectors.
+/// De Casteljau's algorithm at the middle, for a net of any vectors: `high` becomes its upper half.
 template <typename T>
-void HalveNet(const std::vector<T>& net, const int (&count)[2], int dir, std::vector<T>& low,
-  std::vector<T>& high)
+void HalveNet(std::vector<T>& high, const int (&count)[2], int dir, std::vector<T>& low)
 {
-  low = net;
-  high = net;
+  low = high;
   const int n = count[dir] - 1;
   const int step = dir == 0 ? 1 : count[0];
   const int lineStep = dir == 0 ? count[0] : 1;
@@ -225,7 +224,12 @@ void PatchCutter::Add(
   patch.U = Interval();
   patch.V = Interval();
   const std::size_t before = this->Cells.size();
-  this->Cut(context, patch, lightest < heaviest ? MakeQuotients(patch) : QuotientNet(), 0);
+  QuotientNet quotients;
+  if (lightest < heaviest)
+  {
+    quotients = MakeQuotients(patch);
+  }
+  this->Cut(context, patch, quotients, 0);
   if (this->Cells.size() == before)
   {
     this->Points.resize(static_cast<std::size_t>(this->Patches.back().First));
@@ -285,7 +289,7 @@ PatchCutter::QuotientNet PatchCutter::MakeQuotients(const BezierPatch& patch)
 
 /// Makes `piece` (its U and V are parameters of the patch) one cell, or two halves of cells.
 void PatchCutter::Cut(
-  const Context& context, const BezierPatch& piece, const QuotientNet& quotients, int depth)
+  const Context& context, const BezierPatch& piece, QuotientNet& quotients, int depth)
 {
   PatchRays::Cell cell;
   int dir;
@@ -310,12 +314,12 @@ void PatchCutter::Cut(
   }
   BezierPatch low, high;
   SplitBezierPatch(piece, dir, 0.5, low, high);
-  QuotientNet lowQuotients, highQuotients;
+  QuotientNet lowQuotients;
   if (!quotients.empty())
   {
     const int count[2] = { 2 * piece.Degree[0] + 1, 2 * piece.Degree[1] + 1 };
-    HalveNet(quotients, count, dir, lowQuotients, highQuotients);
-    for (QuotientNet* net : { &lowQuotients, &highQuotients })
+    HalveNet(quotients, count, dir, lowQuotients);
+    for (QuotientNet* net : { &lowQuotients, &quotients })
     {
       for (Quotient& quotient : *net)
       {
@@ -324,14 +328,14 @@ void PatchCutter::Cut(
     }
   }
   this->Cut(context, low, lowQuotients, depth + 1);
-  this->Cut(context, high, highQuotients, depth + 1);
+  this->Cut(context, high, quotients, depth + 1);
 }
 
 /// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which s
 /// - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
 /// in which they do so more.
 double PatchCutter::Flatten(
-  const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir) const
+  const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir)
 {
   const int p = piece.Degree[0];
   const int q = piece.Degree[1];
@@ -352,36 +356,46 @@ double PatchCutter::Flatten(
   VariationBound bend[2]; // second differences by their direction
   for (int d = 0; d < 2; ++d)
   {
-    DerivativeNet net{ { p + (d == 0 ? 0 : 1), q + (d == 1 ? 0 : 1) }, {} };
+    // Control vectors of the derivative, in the frame: it lies in their hull.
+    int count[2] = { p + (d == 0 ? 0 : 1), q + (d == 1 ? 0 : 1) };
+    std::vector<Vec3>& net = this->Scratch;
+    net.clear();
     if (quotients.empty())
     {
       const int step = d == 0 ? 1 : p + 1;
-      for (int k = 0; k < net.Count[0] * net.Count[1]; ++k)
+      for (int j = 0; j < count[1]; ++j)
       {
-        const Vec4* h = piece.Points.data() + k % net.Count[0] + k / net.Count[0] * (p + 1);
-        net.Vectors.push_back(piece.Degree[d] / h[0][3] * (h[step] - h[0]).head<3>());
+        const Vec4* h = piece.Points.data() + j * (p + 1);
+        for (int i = 0; i < count[0]; ++i, ++h)
+        {
+          net.push_back(frame.Coordinates(piece.Degree[d] / h[0][3] * (h[step] - h[0]).head<3>()));
+        }
       }
     }
     else
     {
-      net.Count[0] = 2 * p + 1;
-      net.Count[1] = 2 * q + 1;
+      count[0] = 2 * p + 1;
+      count[1] = 2 * q + 1;
       for (const Quotient& quotient : quotients)
       {
-        net.Vectors.push_back(quotient.segment<3>(3 * d) / quotient[6]);
+        net.push_back(frame.Coordinates(quotient.segment<3>(3 * d) / quotient[6]));
       }
     }
-    for (int k = 0; k < net.Count[0] * net.Count[1]; ++k)
+    const Vec3 own = frame.Coordinates(cell.D[d]);
+    const Vec3* here = net.data();
+    for (int j = 0; j < count[1]; ++j)
     {
-      const Vec3& here = net.Vectors[k];
-      whole.Extend(frame, d, here - cell.D[d]);
-      if (k % net.Count[0] > 0)
+      for (int i = 0; i < count[0]; ++i, ++here)
       {
-        bend[0].Extend(frame, d, (net.Count[0] - 1) * (here - net.Vectors[k - 1]));
-      }
-      if (k >= net.Count[0])
-      {
-        bend[1].Extend(frame, d, (net.Count[1] - 1) * (here - net.Vectors[k - net.Count[0]]));
+        whole.Extend(d, *here - own);
+        if (i > 0)
+        {
+          bend[0].Extend(d, (count[0] - 1) * (here[0] - here[-1]));
+        }
+        if (j > 0)
+        {
+          bend[1].Extend(d, (count[1] - 1) * (here[0] - here[-count[0]]));
+        }
       }
     }
   }

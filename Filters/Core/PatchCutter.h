@@ -67,12 +67,12 @@ private:
   static QuotientNet MakeQuotients(const BezierPatch& patch);
   struct Context;
 
-  void Cut(
-    const Context& context, const BezierPatch& piece, const QuotientNet& quotients, int depth);
+  void Cut(const Context& context, const BezierPatch& piece, QuotientNet& quotients, int depth);
   double Flatten(
-    const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir) const;
+    const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir);
 
   double Size;
+  std::vector<Vec3> Scratch; ///< Of Flatten, kept for its memory.
 };
 
 } // namespace nurbs

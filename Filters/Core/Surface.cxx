@@ -261,14 +261,15 @@ Vec2 WayIntoDomain(const Interval (&domain)[2], const Vec2& at, const SurfaceDer
 
 Vec3 Normal(const SurfaceView& surface, double u, double v)
 {
-  const SurfaceDerivatives d = EvaluateDerivatives(surface, u, v, 2);
+  const SurfaceDerivatives first = EvaluateDerivatives(surface, u, v, 1);
   const double scaleU = DerivativeScale(surface, 0, u, v);
   const double scaleV = DerivativeScale(surface, 1, u, v);
-  const Vec3 regular = SafeCross(d.Su, d.Sv, scaleU, scaleV);
+  const Vec3 regular = SafeCross(first.Su, first.Sv, scaleU, scaleV);
   if (!regular.isZero(0.0))
   {
     return regular.normalized();
   }
+  const SurfaceDerivatives d = EvaluateDerivatives(surface, u, v, 2);
   // Su x Sv grows from zero along the way into the domain; its derivative gives the direction.
   const Interval domain[2] = { surface.Domain(0), surface.Domain(1) };
   const Vec2 way = WayIntoDomain(domain, Vec2(u, v), d, scaleU, scaleV);

@@ -12,6 +12,8 @@ namespace
 
 constexpr int SignSamples = 17;
 constexpr int MaxBisections = 50;
+constexpr int FacingSamples = 5;
+constexpr double FacingCosine = 1e-6; // Less faces neither way.
 
 // Adds where a function of t changes its sign.
 template <typename Function>
@@ -48,7 +50,8 @@ double CosineOfUse(
   const TrimCurve& curve = model.TrimCurves[use.Curve];
   const Vec2 on = Evaluate(curve.Geometry, TrimParameter(curve, domain, t));
   const Vec2 uv(face.Geometry.Domain(0).Clamp(on[0]), face.Geometry.Domain(1).Clamp(on[1]));
-  const Vec3 view = viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]));
+  const Vec3 view = viewer.Perspective ? viewer.Toward(Evaluate(face.Geometry, uv[0], uv[1]))
+                                       : viewer.Place; // Of any point.
   const double length = view.norm();
   const double cosine = length > 0.0 ? Normal(face.Geometry, uv[0], uv[1]).dot(view) / length : 0.0;
   return face.Reversed ? -cosine : cosine;
@@ -93,6 +96,37 @@ std::vector<EdgeContour> ContoursOfEdge(const Model& model, std::int64_t edge,
     }
   }
   return out;
+}
+
+bool FaceTheSameWay(
+  const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses, const Viewer& viewer)
+{
+  if (uses.size() != 2)
+  {
+    return false;
+  }
+  bool forward[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    forward[k] = model.TrimCurves[uses[k].Curve].Reversed == model.Faces[uses[k].Face].Reversed;
+  }
+  if (forward[0] == forward[1])
+  {
+    return false;
+  }
+  const Interval domain = EdgeDomain(model, edge, uses);
+  double sign = 0.0;
+  for (int k = 0; k < 2 * FacingSamples; ++k)
+  {
+    const double t = domain.Min + (k / 2 + 0.5) / FacingSamples * domain.Length();
+    const double cosine = CosineOfUse(model, uses[k % 2], domain, viewer, t);
+    if (std::abs(cosine) < FacingCosine || cosine * sign < 0.0)
+    {
+      return false;
+    }
+    sign = cosine;
+  }
+  return true;
 }
 
 } // namespace nurbs

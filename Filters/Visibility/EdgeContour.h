@@ -30,4 +30,10 @@ double CosineOfUse(
 std::vector<EdgeContour> ContoursOfEdge(const Model& model, std::int64_t edge,
   const std::vector<EdgeUse>& uses, const Viewer& viewer, double precision);
 
+/// True if an edge has two uses, whose faces lie on either side of it in the image and face the same
+/// way along it, towards the viewer or away, in five places of both. Unless a silhouette meets the
+/// edge, it hides nothing then.
+bool FaceTheSameWay(
+  const Model& model, std::int64_t edge, const std::vector<EdgeUse>& uses, const Viewer& viewer);
+
 } // namespace nurbs

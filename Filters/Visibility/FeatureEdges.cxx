@@ -14,6 +14,29 @@ constexpr int AngleSamples = 9;
 constexpr int StraightSamples = 15;
 constexpr int FirstParts = 4; // Of a Bezier piece of a trim curve that is not straight.
 constexpr int MaxChordDepth = 30;
+// Surfaces are planar whose control points are as near to a plane, as a share of their size.
+constexpr double FlatShare = 1e-10;
+// Of control points of a bilinear patch, that make it a parallelogram.
+constexpr double AffineShare = 1e-13;
+
+// True if the surface is an affine image of its domain: lines stay straight.
+bool IsAffine(const SurfaceView& surface)
+{
+  if (surface.Size() != 4 || surface.Degree[0] != 1 || surface.Degree[1] != 1)
+  {
+    return false;
+  }
+  for (int k = 1; k < 4; ++k)
+  {
+    if (surface.Weight(k) != surface.Weight(0))
+    {
+      return false;
+    }
+  }
+  const Vec3 diagonal = surface.Point(3) - surface.Point(0);
+  const Vec3 skew = surface.Point(1) + surface.Point(2) - surface.Point(0) - surface.Point(3);
+  return skew.norm() <= AffineShare * diagonal.norm();
+}
 
 // A point of an edge, and where it is in a Bezier piece of the trim curve.
 struct EdgePoint : ContourPoint
@@ -41,6 +64,37 @@ Vec3 NormalAt(const Model& model, const EdgeUse& use, const Interval& domain, do
 }
 
 } // namespace
+
+bool IsPlanar(const SurfaceView& surface)
+{
+  const std::int64_t count = surface.Size();
+  if (count == 0)
+  {
+    return false;
+  }
+  const Vec3 origin = surface.Point(0);
+  Vec3 along = Vec3::Zero();
+  for (std::int64_t k = 1; k < count; ++k)
+  {
+    const Vec3 way = surface.Point(k) - origin;
+    along = way.squaredNorm() > along.squaredNorm() ? way : along;
+  }
+  Vec3 normal = Vec3::Zero();
+  for (std::int64_t k = 1; k < count; ++k)
+  {
+    const Vec3 cross = along.cross(surface.Point(k) - origin);
+    normal = cross.squaredNorm() > normal.squaredNorm() ? cross : normal;
+  }
+  const double most = FlatShare * along.norm() * normal.norm();
+  for (std::int64_t k = 1; k < count && most > 0.0; ++k)
+  {
+    if (std::abs(normal.dot(surface.Point(k) - origin)) > most)
+    {
+      return false;
+    }
+  }
+  return most > 0.0;
+}
 
 std::vector<std::vector<EdgeUse>> UsesOfEdges(
   const Model& model, const std::vector<std::string>& faceErrors)
@@ -76,9 +130,12 @@ LineKind KindOfEdge(
   }
   const double flip = forward[0] == forward[1] ? -1.0 : 1.0;
   const Interval domain = EdgeDomain(model, edge, uses);
-  for (int k = 0; k < AngleSamples; ++k)
+  const bool isConstant = std::all_of(uses.begin(), uses.end(),
+    [&](const EdgeUse& use) { return IsAffine(model.Faces[use.Face].Geometry); });
+  const int samples = isConstant ? 1 : AngleSamples;
+  for (int k = 0; k < samples; ++k)
   {
-    const double t = domain.Min + (k + 0.5) / AngleSamples * domain.Length();
+    const double t = domain.Min + (k + 0.5) / samples * domain.Length();
     const Vec3 a = NormalAt(model, uses[0], domain, t);
     const Vec3 b = flip * NormalAt(model, uses[1], domain, t);
     if (std::atan2(a.cross(b).norm(), a.dot(b)) > featureAngle)
@@ -93,6 +150,7 @@ std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, const
   double precision, std::vector<double>* parameters)
 {
   const SurfaceView& surface = model.Faces[use.Face].Geometry;
+  const bool isAffine = IsAffine(surface);
   std::vector<ContourPoint> out;
   std::vector<double> at;
   for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[use.Curve].Geometry))
@@ -119,8 +177,9 @@ std::vector<ContourPoint> LiftEdge(const Model& model, const EdgeUse& use, const
     {
       add(a);
     }
+    const bool isLine = isAffine && piece.Degree() == 1;
     bool straight = true;
-    for (int k = 1; k <= StraightSamples && straight; ++k)
+    for (int k = 1; k <= StraightSamples && straight && !isLine; ++k)
     {
       straight = DistanceToSegment(point(double(k) / (StraightSamples + 1)).Point, a.Point,
                    end.Point) <= 0.9 * precision;

@@ -21,6 +21,9 @@ enum class LineKind
 };
 inline constexpr int LineKindCount = 4; ///< Of silhouettes and edges.
 
+/// True if the control points lie in a plane, to 1e-10 of their size, and not on a line.
+bool IsPlanar(const SurfaceView& surface);
+
 /// The uses of every edge by faces without an error.
 std::vector<std::vector<EdgeUse>> UsesOfEdges(
   const Model& model, const std::vector<std::string>& faceErrors);

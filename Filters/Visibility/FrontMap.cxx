@@ -17,12 +17,6 @@ namespace
 constexpr double SliverRadius = 0.75;
 // Lines of sight a cell, that show surfaces that pierce each other.
 constexpr int SamplesPerCell = 4;
-// A hit beside a line is on a sheet that ends there if the way back along the surface leads this much
-// nearer to the line. On other sheets it leads nowhere near; at a silhouette, where the surface turns
-// away, to the square root of the chord's error.
-constexpr double NearerShare = 0.6;
-// What is in front of a line by less is its own surface, in pixels.
-constexpr double BareDepth = 8.0;
 
 // The segments of all parts.
 void AddSegments(const ViewLines& lines, const std::vector<LinePart>& parts, FrontMap& map,
@@ -88,8 +82,8 @@ void CollectSources(FrontMap& map)
 }
 
 // Looks at each cell; the outer one is empty.
-void LookAtCells(const ImagePlane& image, const RayCaster& caster, const ParallelFor& parallel,
-  const std::function<bool(double)>& progress, FrontMap& map)
+void LookAtCells(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
+  const ParallelFor& parallel, const std::function<bool(double)>& progress, FrontMap& map)
 {
   const PlanarMap& plane = map.Plane;
   map.Cells.resize(plane.CellCount);
@@ -107,7 +101,7 @@ void LookAtCells(const ImagePlane& image, const RayCaster& caster, const Paralle
              k < plane.SampleStart[c + 1] && plane.Samples[k].Radius > SliverRadius; ++k)
         {
           const FrontHit other = LookAt(caster, image, map.ToImage(plane.Samples[k].Point));
-          if (other.Face != map.Cells[c].Face)
+          if (!lines.AreJoined(other.Face, map.Cells[c].Face))
           {
             others[c].push_back(other.Face);
           }
@@ -211,7 +205,7 @@ FrontMap MakeFrontMap(const ViewLines& lines, const std::vector<LinePart>& parts
   const std::function<bool(double)>& progress)
 {
   FrontMap map = MakeLineMap(lines, parts, pixel, parallel);
-  LookAtCells(image, caster, parallel, progress, map);
+  LookAtCells(lines, image, caster, parallel, progress, map);
   return map;
 }
 
@@ -430,203 +424,11 @@ void SliverJoiner::Run()
   }
 }
 
-// Says where lines end the surfaces that are seen beside them.
-class ShownLines
-{
-public:
-  ShownLines(
-    const ViewLines& lines, const ImagePlane& image, const RayCaster& caster, FrontMap& map)
-    : Lines(lines)
-    , Image(image)
-    , Caster(caster)
-    , Map(map)
-    , Walk(lines.Lines, map)
-    , Neighbours(lines.Whole.Data.Faces.size())
-    , Size((lines.Box().diagonal()).norm())
-  {
-    for (const std::vector<EdgeUse>& uses : lines.Uses)
-    {
-      for (const EdgeUse& use : uses)
-      {
-        for (const EdgeUse& other : uses)
-        {
-          this->Neighbours[use.Face].insert(other.Face);
-        }
-      }
-    }
-  }
-
-  void Find(std::int64_t line);
-
-private:
-  Vec3 Middle(const ViewLine& line, const LineStep& step) const;
-  bool Shows(const ViewLine& line, const LineStep& step, int side) const;
-  bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
-  bool IsEdgeOn(const ViewLine& line) const;
-  bool IsForemost(const ViewLine& line, const LineStep& step) const;
-
-  const ViewLines& Lines;
-  const ImagePlane& Image;
-  const RayCaster& Caster;
-  FrontMap& Map;
-  LineWalk Walk;
-  std::vector<std::set<std::int64_t>> Neighbours; // Of faces, by their edges; and themselves.
-  double Size;                                    // Of the image.
-};
-
-Vec3 ShownLines::Middle(const ViewLine& line, const LineStep& step) const
-{
-  const LinePosition at = 0.5 * (this->Walk.Start(step) + this->Walk.End(step));
-  return ExactPointAt(this->Lines, line, at).Point;
-}
-
-bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
-{
-  const Vec3 point = this->Middle(line, step);
-  if (line.IsIntersection())
-  {
-    // Both faces are seen on both sides of it, where nothing is in front.
-    const FrontHit there = LookAt(this->Caster, this->Image, this->Image.Project(point));
-    return there.Face < 0 ||
-      this->Image.Depth(point) - this->Image.Depth(there.Point) <= this->Map.Pixel;
-  }
-  const Vec2 beside = this->Map.Beside(step.Edge, side);
-  const FrontHit& front = this->Map.Front(step.Edge, side);
-  const FrontHit hit = LookAt(this->Caster, this->Image, beside);
-  if (hit.Face != front.Face)
-  {
-    return true; // Too near to tell; what the cell says goes.
-  }
-  const SurfaceView& surface = this->Lines.Whole.Data.Faces[hit.Face].Geometry;
-  Vec2 uv = hit.UV;
-  const int sheet = hit.FromBehind == this->Lines.Whole.Data.Faces[hit.Face].Reversed ? 1 : -1;
-  this->Image.Lift(surface, this->Image.Project(point), this->Map.Pixel, sheet, uv);
-  return (Evaluate(surface, uv[0], uv[1]) - point).norm() <=
-    NearerShare * (hit.Point - point).norm();
-}
-
-// A face that turns away may be narrower than a pixel there, so that a neighbour's cell begins at its
-// silhouette. True if that is so, and nothing is in front of the line itself.
-bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) const
-{
-  const Vec3 point = this->Middle(line, step);
-  const FrontHit beside = LookAt(this->Caster, this->Image, this->Map.Beside(step.Edge, side));
-  // Of a surface that turns away with a radius up to the image's size.
-  const double reach = std::sqrt(2.0 * SideReach * this->Map.Pixel * this->Size);
-  if (beside.Face < 0 ||
-    std::abs(this->Image.Depth(beside.Point) - this->Image.Depth(point)) > reach)
-  {
-    return false;
-  }
-  bool isNeighbour = this->Neighbours[line.Face].count(beside.Face) > 0;
-  for (std::size_t k = 0; line.IsEdge() && k < this->Lines.Uses[line.Edge].size(); ++k)
-  {
-    isNeighbour =
-      isNeighbour || this->Neighbours[this->Lines.Uses[line.Edge][k].Face].count(beside.Face) > 0;
-  }
-  if (!isNeighbour)
-  {
-    return false;
-  }
-  const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
-  return front.Face < 0 ||
-    this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
-}
-
-// True if no face of an edge is seen, because all are edge-on.
-bool ShownLines::IsEdgeOn(const ViewLine& line) const
-{
-  const auto isEdgeOn = [&](const EdgeUse& use) {
-    const auto& patches = this->Lines.Faces[use.Face].Patches;
-    return patches[int(PatchVisibility::EdgeOn)] > 0 &&
-      patches[int(PatchVisibility::Visible)] + patches[int(PatchVisibility::Partial)] +
-        patches[int(PatchVisibility::Invisible)] ==
-      0;
-  };
-  return line.IsEdge() &&
-    std::all_of(this->Lines.Uses[line.Edge].begin(), this->Lines.Uses[line.Edge].end(), isEdgeOn);
-}
-
-// True if nothing but its own faces is in front of a line, and no line that it coincides with is nearer.
-bool ShownLines::IsForemost(const ViewLine& line, const LineStep& step) const
-{
-  const Vec3 point = this->Middle(line, step);
-  const double depth = this->Image.Depth(point);
-  const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
-  if (front.Face >= 0 && !IsOfFace(this->Lines, line, front.Face) &&
-    depth - this->Image.Depth(front.Point) > BareDepth * this->Map.Pixel)
-  {
-    return false;
-  }
-  const auto& ends = this->Map.Snapped.Edges[step.Edge];
-  for (const LineSource& source : this->Map.SourcesOf(step.Edge))
-  {
-    const ViewLine& other = this->Lines.Lines[source.Line];
-    const LinePosition middle = 0.5 *
-      (this->Map.At(this->Lines.Lines, source, ends[0]) +
-        this->Map.At(this->Lines.Lines, source, ends[1]));
-    if (&other != &line && depth - this->Image.Depth(PointAt(other, middle)) > this->Map.Pixel)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-// Between two crossings nothing changes: one look a side, where there is most room.
-void ShownLines::Find(std::int64_t index)
-{
-  const ViewLine& line = this->Lines.Lines[index];
-  const std::vector<LineStep> steps = this->Walk.Steps(index);
-  for (std::size_t first = 0, last = 0; first < steps.size(); first = last)
-  {
-    last = this->Walk.GroupEnd(steps, first);
-    if (this->IsEdgeOn(line))
-    {
-      const bool isForemost = this->IsForemost(line, steps[first + (last - first) / 2]);
-      for (std::size_t k = first; k < last; ++k)
-      {
-        this->Map.Sources[steps[k].Source].IsBare = isForemost;
-      }
-      continue;
-    }
-    // A silhouette has its own surface on its left only.
-    const int sides = line.IsEdge() || line.IsIntersection() ? 2 : 1;
-    for (int lineSide = 0; lineSide < sides; ++lineSide)
-    {
-      const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
-      const int side = this->Walk.Side(best, lineSide);
-      const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
-      const bool shows =
-        face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
-      const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
-      for (std::size_t k = first; k < last; ++k)
-      {
-        LineSource& source = this->Map.Sources[steps[k].Source];
-        source.Shows |= std::uint8_t((shows ? 1 : 0) << this->Walk.Side(steps[k], lineSide));
-        source.IsBare = source.IsBare || isBare;
-      }
-    }
-  }
-}
-
 } // namespace
 
 void AbsorbSlivers(const ViewLines& lines, FrontMap& map)
 {
   SliverJoiner(lines, map).Run();
-}
-
-void FindShownLines(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
-  FrontMap& map, const ParallelFor& parallel)
-{
-  ShownLines finder(lines, image, caster, map);
-  parallel(0, std::int64_t(lines.Lines.size()), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t line = begin; line < end; ++line)
-    {
-      finder.Find(line);
-    }
-  });
 }
 
 } // namespace nurbs

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RegionArea.h"
 
+#include "SurfaceEvaluator.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 namespace nurbs
 {
@@ -15,7 +16,8 @@ namespace
 
 constexpr double SeriesTolerance = 1e-11;
 constexpr int Orders[] = { 3, 6, 12, 24 }; // Numbers of coefficients that are tried.
-constexpr double LineTolerance = 1e-10;    // Of integrals along curves, as a share of the area.
+constexpr int MaxOrder = 24;
+constexpr double LineTolerance = 1e-10; // Of integrals along curves, as a share of the area.
 constexpr int MaxHalvings = 12;
 constexpr double ShortStep = 0.02; // Of a polyline, as a share of the domain: three points do.
 constexpr double PI = 3.141592653589793238462643383280;
@@ -84,24 +86,22 @@ void Legendre(double x, int n, double* p)
 // |S_u x S_v| on one knot span, as a series in both parameters.
 struct Series
 {
-  int Order = 0;
-  int Count[2] = { 0, 0 }; // Of coefficients that matter, u and v; 1: constant.
-  std::vector<double> C;   // Order x Order, of u fastest.
+  int Count[2] = { 0, 0 }; // Of coefficients, u and v; 0: not made.
+  std::vector<double> C;   // Of u fastest.
 
-  // Sums over v, and integrates over u from the span's start to x in [-1, 1].
-  double Integral(double x, double y) const
+  // Sums over v, and integrates over u from the span's start to x in [-1, 1]; `v`: Legendre
+  // polynomials at the place in v.
+  double Integral(double x, const double* v) const
   {
-    double u[26];
-    double v[26];
+    double u[MaxOrder + 2];
     Legendre(x, this->Count[0], u);
-    Legendre(y, this->Count[1], v);
     double sum = 0.0;
     for (int i = 0; i < this->Count[0]; ++i)
     {
       double c = 0.0;
       for (int j = 0; j < this->Count[1]; ++j)
       {
-        c += this->C[i + j * this->Order] * v[j];
+        c += this->C[i + j * this->Count[0]] * v[j];
       }
       // The integral of P_i from -1 to x.
       sum += c * (i == 0 ? x + 1.0 : (u[i + 1] - u[i - 1]) / (2 * i + 1));
@@ -109,31 +109,48 @@ struct Series
     return sum;
   }
 
-  // Finds how many coefficients matter; false if there may be more than there are.
-  bool Settle()
+  // Takes the coefficients that matter of order x order ones; false if there may be more.
+  bool Settle(const std::vector<double>& all, int order)
   {
     double largest = 0.0;
-    for (const double c : this->C)
+    for (const double c : all)
     {
       largest = std::max(largest, std::abs(c));
     }
     this->Count[0] = this->Count[1] = 1;
-    for (int j = 0; j < this->Order; ++j)
+    for (int j = 0; j < order; ++j)
     {
-      for (int i = 0; i < this->Order; ++i)
+      for (int i = 0; i < order; ++i)
       {
-        if (std::abs(this->C[i + j * this->Order]) > SeriesTolerance * largest)
+        if (std::abs(all[i + j * order]) > SeriesTolerance * largest)
         {
           this->Count[0] = std::max(this->Count[0], i + 1);
           this->Count[1] = std::max(this->Count[1], j + 1);
         }
       }
     }
-    return std::max(this->Count[0], this->Count[1]) <= this->Order - 2;
+    this->C.clear();
+    for (int j = 0; j < this->Count[1]; ++j)
+    {
+      const auto row = all.begin() + j * order;
+      this->C.insert(this->C.end(), row, row + this->Count[0]);
+    }
+    return std::max(this->Count[0], this->Count[1]) <= order - 2;
   }
 };
 
-class SpeedIntegral
+// The spans between two knots of v.
+struct SpanRow
+{
+  std::vector<Series> Spans;
+  /// MaxOrder numbers a span: the series in v of the integral over u of all spans before.
+  std::vector<double> Before;
+};
+
+} // namespace
+
+// P(u, v) = the integral of |S_u x S_v| over u from the start of the domain.
+class FaceArea::SpeedIntegral
 {
 public:
   explicit SpeedIntegral(const SurfaceView& surface)
@@ -152,19 +169,20 @@ public:
       }
       this->Breaks[dir].push_back(domain.Max);
     }
+    this->Rows.resize(this->Breaks[1].size() - 1);
   }
 
-  // P(u, v).
   double operator()(const Vec2& uv)
   {
     const int i = this->Span(0, uv[0]);
     const int j = this->Span(1, uv[1]);
-    const double y = this->Local(1, j, uv[1]);
-    double sum = 0.0;
-    for (int k = 0; k <= i; ++k)
+    const double* before = this->Before(i, j);
+    double v[MaxOrder + 2];
+    Legendre(this->Local(1, j, uv[1]), MaxOrder, v);
+    double sum = this->Half(i) * this->At(i, j).Integral(this->Local(0, i, uv[0]), v);
+    for (int k = 0; k < MaxOrder; ++k)
     {
-      const double half = 0.5 * (this->Breaks[0][k + 1] - this->Breaks[0][k]);
-      sum += half * this->At(k, j).Integral(k < i ? 1.0 : this->Local(0, i, uv[0]), y);
+      sum += before[k] * v[k];
     }
     return sum;
   }
@@ -181,63 +199,109 @@ private:
     const std::vector<double>& b = this->Breaks[dir];
     return std::clamp(2.0 * (t - b[span]) / (b[span + 1] - b[span]) - 1.0, -1.0, 1.0);
   }
-  const Series& At(int i, int j)
-  {
-    Series& series = this->All[{ i, j }];
-    bool settled = series.Order > 0;
-    for (std::size_t k = 0; k < std::size(Orders) && !settled; ++k)
-    {
-      this->Expand(i, j, Orders[k], series);
-      settled = series.Settle();
-    }
-    return series;
-  }
-  void Expand(int i, int j, int n, Series& series) const;
+  double Half(int i) const { return 0.5 * (this->Breaks[0][i + 1] - this->Breaks[0][i]); }
+  const double* Before(int i, int j);
+  const Series& At(int i, int j);
+  void Expand(int i, int j, int n);
 
-  const SurfaceView& Surface;
+  SurfaceEvaluator Surface;
   std::vector<double> Breaks[2];
-  std::map<std::array<int, 2>, Series> All;
+  std::vector<SpanRow> Rows;
+  std::size_t Likely = 0; // Of Orders: what the last span took.
+  std::vector<SurfaceDerivatives> Points;
+  std::vector<double> Places[2], Coefficients;
 };
 
-void SpeedIntegral::Expand(int i, int j, int n, Series& series) const
+const Series& FaceArea::SpeedIntegral::At(int i, int j)
+{
+  SpanRow& row = this->Rows[j];
+  row.Spans.resize(this->Breaks[0].size() - 1);
+  Series& series = row.Spans[i];
+  bool isSettled = series.Count[0] > 0;
+  for (std::size_t k = this->Likely; k < std::size(Orders) && !isSettled; ++k)
+  {
+    this->Expand(i, j, Orders[k]);
+    isSettled = series.Settle(this->Coefficients, Orders[k]);
+    const bool wouldDo = k > 0 && std::max(series.Count[0], series.Count[1]) <= Orders[k - 1] - 2;
+    this->Likely = wouldDo ? k - 1 : k;
+  }
+  return series;
+}
+
+// Of a span before, only the constant in u has an integral.
+const double* FaceArea::SpeedIntegral::Before(int i, int j)
+{
+  std::vector<double>& before = this->Rows[j].Before;
+  before.reserve(MaxOrder * (this->Breaks[0].size() - 1));
+  if (before.empty())
+  {
+    before.assign(MaxOrder, 0.0);
+  }
+  for (int k = int(before.size() / MaxOrder) - 1; k < i; ++k)
+  {
+    const Series& series = this->At(k, j);
+    before.insert(before.end(), before.end() - MaxOrder, before.end());
+    double* next = before.data() + before.size() - MaxOrder;
+    for (int m = 0; m < series.Count[1]; ++m)
+    {
+      next[m] += 2.0 * this->Half(k) * series.C[m * series.Count[0]];
+    }
+  }
+  return before.data() + MaxOrder * i;
+}
+
+void FaceArea::SpeedIntegral::Expand(int i, int j, int n)
 {
   const Rule& rule = Gauss(n);
-  series.Order = n;
-  series.C.assign(n * n, 0.0);
-  const auto at = [&](int dir, int span, double x) {
-    const double a = this->Breaks[dir][span];
-    return a + 0.5 * (x + 1.0) * (this->Breaks[dir][span + 1] - a);
-  };
-  double p[26];
-  double q[26];
+  const int spans[2] = { i, j };
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    const double a = this->Breaks[dir][spans[dir]];
+    const double length = this->Breaks[dir][spans[dir] + 1] - a;
+    this->Places[dir].clear();
+    for (const double x : rule.X)
+    {
+      this->Places[dir].push_back(a + 0.5 * (x + 1.0) * length);
+    }
+    // In the order of the parameters.
+    std::reverse(this->Places[dir].begin(), this->Places[dir].end());
+  }
+  this->Points.resize(n * n);
+  this->Surface.DerivativesGrid(this->Places[0], this->Places[1], this->Points.data());
+  this->Coefficients.assign(n * n, 0.0);
+  std::vector<double> row(n);
+  double p[MaxOrder + 2];
   for (int b = 0; b < n; ++b)
   {
-    std::vector<double> row(n, 0.0);
+    std::fill(row.begin(), row.end(), 0.0);
     for (int a = 0; a < n; ++a)
     {
-      const SurfaceDerivatives d =
-        EvaluateDerivatives(this->Surface, at(0, i, rule.X[a]), at(1, j, rule.X[b]), 1);
-      const double speed = d.Su.cross(d.Sv).norm();
+      const SurfaceDerivatives& d = this->Points[(n - 1 - b) * n + n - 1 - a];
+      const double speed = rule.W[a] * d.Su.cross(d.Sv).norm();
       Legendre(rule.X[a], n, p);
       for (int k = 0; k < n; ++k)
       {
-        row[k] += (k + 0.5) * rule.W[a] * speed * p[k];
+        row[k] += (k + 0.5) * speed * p[k];
       }
     }
-    Legendre(rule.X[b], n, q);
+    Legendre(rule.X[b], n, p);
     for (int m = 0; m < n; ++m)
     {
+      const double factor = (m + 0.5) * rule.W[b] * p[m];
       for (int k = 0; k < n; ++k)
       {
-        series.C[k + m * n] += (m + 0.5) * rule.W[b] * q[m] * row[k];
+        this->Coefficients[k + m * n] += factor * row[k];
       }
     }
   }
 }
 
+namespace
+{
+
 // The integral of P dv along a path t -> (u, v), v_t, by n points.
-template <typename Path>
-double SumAlong(SpeedIntegral& speed, const Path& path, double from, double to, int n)
+template <typename Speed, typename Path>
+double SumAlong(Speed& speed, const Path& path, double from, double to, int n)
 {
   const Rule& rule = Gauss(n);
   double out = 0.0;
@@ -252,9 +316,8 @@ double SumAlong(SpeedIntegral& speed, const Path& path, double from, double to, 
 }
 
 // The same, by halving until it settles.
-template <typename Path>
-double AlongPath(
-  SpeedIntegral& speed, const Path& path, double a, double b, double tolerance, int depth)
+template <typename Speed, typename Path>
+double AlongPath(Speed& speed, const Path& path, double a, double b, double tolerance, int depth)
 {
   const double coarse = SumAlong(speed, path, a, b, 5);
   const double fine = SumAlong(speed, path, a, b, 8);
@@ -288,14 +351,26 @@ std::vector<RegionLoop> WholeRegion(const Model& model, std::int64_t index)
   return out;
 }
 
-double RegionArea(const Model& model, std::int64_t index, const std::vector<RegionLoop>& loops)
+FaceArea::FaceArea(const Model& model, std::int64_t face)
+  : Source(model)
+  , Index(face)
+  , Speed(std::make_unique<SpeedIntegral>(model.Faces[face].Geometry))
 {
-  const SurfaceView& surface = model.Faces[index].Geometry;
-  SpeedIntegral speed(surface);
+  const SurfaceView& surface = model.Faces[face].Geometry;
+  const Interval v = surface.Domain(1);
+  this->Whole = (*this->Speed)(Vec2(surface.Domain(0).Max, 0.5 * (v.Min + v.Max))) * v.Length();
+}
+
+FaceArea::~FaceArea() = default;
+
+double FaceArea::Of(const std::vector<RegionLoop>& loops)
+{
+  const Model& model = this->Source;
+  const SurfaceView& surface = model.Faces[this->Index].Geometry;
+  SpeedIntegral& speed = *this->Speed;
   const Interval u = surface.Domain(0);
   const Interval v = surface.Domain(1);
-  const double whole = speed(Vec2(u.Max, 0.5 * (v.Min + v.Max))) * v.Length();
-  const double tolerance = LineTolerance * whole;
+  const double tolerance = LineTolerance * this->Whole;
   double area = 0.0;
   for (const RegionLoop& loop : loops)
   {

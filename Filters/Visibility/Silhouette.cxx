@@ -226,6 +226,7 @@ void SilhouetteMaker::TraceEdges(Silhouettes& out)
 {
   const Model& model = this->Whole.Data;
   const std::int64_t count = std::int64_t(model.Edges.size());
+  out.EdgeKinds.assign(count, LineKind::Smooth);
   std::vector<SilhouetteLine> lines(count);
   std::vector<std::vector<SilhouetteLine>> contours(count);
   this->Options.Parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
@@ -238,6 +239,7 @@ void SilhouetteMaker::TraceEdges(Silhouettes& out)
         continue;
       }
       const LineKind kind = KindOfEdge(model, e, uses, this->Options.FeatureAngle);
+      out.EdgeKinds[e] = kind;
       if (kind == LineKind::Smooth && this->Options.Kinds[0] && MayTurn(out, uses))
       {
         this->TraceEdge(e, contours[e]);

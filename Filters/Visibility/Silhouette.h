@@ -66,6 +66,9 @@ struct Silhouettes
 {
   std::vector<SilhouetteLine> Lines; ///< Silhouettes by face, then edges by their index.
   std::vector<FaceSilhouette> Faces; ///< One a face.
+  /// Of the edges of the model, completed (CompleteModel); of those that are not used or degenerate it
+  /// says nothing.
+  std::vector<LineKind> EdgeKinds;
   std::int64_t Chains[LineKindCount] = { 0, 0, 0, 0 }; ///< Components by kind.
   /// Points of silhouettes, but those along creases, with |normal . view| over 1e-9: in singular
   /// cells, and where a trim curve runs so near to the contour that they can't be told apart.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewLines.h"
 
+#include "EdgeContour.h"
 #include "ModelExtent.h"
 
 #include <algorithm>
@@ -18,6 +19,32 @@ constexpr double SilhouettesDone = 0.7;
 // As MakeSilhouettes completes models.
 constexpr double JoinShare = 1e-7;
 
+// Puts the lowest face of its set in place of each.
+void Flatten(std::vector<std::int64_t>& parent)
+{
+  for (std::int64_t& face : parent)
+  {
+    face = parent[face]; // Which is not above it, so done before.
+  }
+}
+
+// The lowest face of the set; parents are lower.
+std::int64_t Root(std::vector<std::int64_t>& parent, std::int64_t face)
+{
+  while (parent[face] != face)
+  {
+    face = parent[face] = parent[parent[face]];
+  }
+  return face;
+}
+
+void Unite(std::vector<std::int64_t>& parent, std::int64_t a, std::int64_t b)
+{
+  a = Root(parent, a);
+  b = Root(parent, b);
+  parent[std::max(a, b)] = std::min(a, b);
+}
+
 // Faces by connected shell; a shell is closed if each edge has two uses that run opposite ways seen
 // from the outside.
 std::vector<char> FindShells(const ViewLines& lines)
@@ -25,13 +52,6 @@ std::vector<char> FindShells(const ViewLines& lines)
   const Model& model = lines.Whole.Data;
   std::vector<std::int64_t> parent(model.Faces.size());
   std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](std::int64_t f) {
-    while (parent[f] != f)
-    {
-      f = parent[f] = parent[parent[f]];
-    }
-    return f;
-  };
   std::vector<char> open(model.Faces.size(), 0);
   for (std::size_t e = 0; e < lines.Uses.size(); ++e)
   {
@@ -42,7 +62,7 @@ std::vector<char> FindShells(const ViewLines& lines)
     }
     for (const EdgeUse& use : uses)
     {
-      parent[find(use.Face)] = find(uses.front().Face);
+      Unite(parent, use.Face, uses.front().Face);
     }
     const auto isForward = [&](const EdgeUse& use) {
       return model.TrimCurves[use.Curve].Reversed == model.Faces[use.Face].Reversed;
@@ -55,22 +75,23 @@ std::vector<char> FindShells(const ViewLines& lines)
   std::vector<char> openShell(model.Faces.size(), 0);
   for (std::size_t f = 0; f < open.size(); ++f)
   {
-    openShell[find(std::int64_t(f))] |= open[f] || model.Faces[f].LoopCount == 0;
+    openShell[Root(parent, std::int64_t(f))] |= open[f] || model.Faces[f].LoopCount == 0;
   }
   std::vector<char> out(open.size());
   for (std::size_t f = 0; f < open.size(); ++f)
   {
-    out[f] = !openShell[find(std::int64_t(f))];
+    out[f] = !openShell[Root(parent, std::int64_t(f))];
   }
   return out;
 }
 
-ViewLine MakeEdgeLine(const ViewLines& lines, std::int64_t edge, const SilhouetteOptions& options)
+ViewLine MakeEdgeLine(
+  const ViewLines& lines, std::int64_t edge, LineKind kind, const SilhouetteOptions& options)
 {
   const Model& model = lines.Whole.Data;
   const std::vector<EdgeUse>& uses = lines.Uses[edge];
   ViewLine line;
-  line.Kind = KindOfEdge(model, edge, uses, options.FeatureAngle);
+  line.Kind = kind;
   line.Face = uses.front().Face;
   line.Edge = edge;
   const Interval domain = model.TrimCurves[uses.front().Curve].Geometry.Domain();
@@ -119,6 +140,19 @@ struct EdgeEnd
   Vec3 Point;
 };
 
+// False if a curve is farther from a point than OnCurve, as its control points tell.
+template <typename PointAt>
+bool MayPass(int count, const PointAt& pointAt, const Vec2& uv, const Vec2& size)
+{
+  Box2 box;
+  for (int k = 0; k < count; ++k)
+  {
+    box.extend(pointAt(k));
+  }
+  const Vec2 reach = OnCurve * size;
+  return (uv - box.min() + reach).minCoeff() >= 0.0 && (box.max() - uv + reach).minCoeff() >= 0.0;
+}
+
 // Where a trim curve of the face passes (u, v): contours that end at the border of the domain do not
 // tell. Curve -1: none does.
 TrimCrossing FindCurve(const Model& model, const Face& face, const Vec2& uv)
@@ -131,8 +165,21 @@ TrimCrossing FindCurve(const Model& model, const Face& face, const Vec2& uv)
     const TrimLoop& loop = model.Loops[l];
     for (std::int64_t c = loop.FirstCurve; c < loop.FirstCurve + loop.CurveCount; ++c)
     {
-      for (const BezierCurve<2>& piece : ToBezier(model.TrimCurves[c].Geometry))
+      const CurveView<2>& curve = model.TrimCurves[c].Geometry;
+      if (!MayPass(
+            curve.Count, [&](int k) { return curve.Point(k); }, uv, size))
       {
+        continue;
+      }
+      for (const BezierCurve<2>& piece : ToBezier(curve))
+      {
+        const auto pointOf = [&](int k) {
+          return Vec2(piece.Points[k].head<2>() / piece.Points[k][2]);
+        };
+        if (!MayPass(piece.Degree() + 1, pointOf, uv, size))
+        {
+          continue;
+        }
         const auto distance = [&](double t) {
           return (piece.Evaluate(t) - uv).cwiseQuotient(size).norm();
         };
@@ -301,7 +348,7 @@ void AddIntersections(
 
 ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
-  const ImagePlane& image)
+  const ImagePlane& image, bool allSmooth)
 {
   ViewLines out;
   SilhouetteOptions contours = options;
@@ -373,12 +420,16 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   AddIntersections(intersections, ends, out);
   const auto first = std::int64_t(out.Lines.size());
   out.Lines.resize(first + edges);
+  std::vector<char> isInner(edges, 0);
   options.Parallel(0, edges, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end; ++e)
     {
-      if (!out.Uses[e].empty() && !IsDegenerate(out.Whole.Data.Edges[e]))
+      isInner[e] = !allSmooth && silhouettes.EdgeKinds[e] == LineKind::Smooth && !meets[e] &&
+        !IsDegenerate(out.Whole.Data.Edges[e]) &&
+        FaceTheSameWay(out.Whole.Data, e, out.Uses[e], options.View);
+      if (!out.Uses[e].empty() && !IsDegenerate(out.Whole.Data.Edges[e]) && !isInner[e])
       {
-        out.Lines[first + e] = MakeEdgeLine(out, e, options);
+        out.Lines[first + e] = MakeEdgeLine(out, e, silhouettes.EdgeKinds[e], options);
         InsertEnds(out, ends[e], out.Lines[first + e]);
         out.Lines[first + e].MeetsSilhouette = meets[e] != 0;
       }
@@ -387,6 +438,16 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   out.Lines.erase(std::remove_if(out.Lines.begin() + first, out.Lines.end(),
                     [](const ViewLine& line) { return line.Points.size() < 2; }),
     out.Lines.end());
+  out.Cluster.resize(out.Whole.Data.Faces.size());
+  std::iota(out.Cluster.begin(), out.Cluster.end(), std::int64_t(0));
+  for (std::int64_t e = 0; e < edges; ++e)
+  {
+    if (isInner[e])
+    {
+      Unite(out.Cluster, out.Uses[e][0].Face, out.Uses[e][1].Face);
+    }
+  }
+  Flatten(out.Cluster);
   ProjectLines(silhouettes, intersections, image, out);
   return out;
 }
@@ -404,15 +465,31 @@ Box2 ViewLines::Box() const
   return box;
 }
 
-bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
+namespace
+{
+
+template <typename IsIt>
+bool AnyFace(const ViewLines& lines, const ViewLine& line, const IsIt& isIt)
 {
   if (!line.IsEdge())
   {
-    return line.Face == face || (line.IsIntersection() && line.OtherFace == face);
+    return isIt(line.Face) || (line.IsIntersection() && isIt(line.OtherFace));
   }
   const std::vector<EdgeUse>& uses = lines.Uses[line.Edge];
-  return std::any_of(
-    uses.begin(), uses.end(), [&](const EdgeUse& use) { return use.Face == face; });
+  return std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& use) { return isIt(use.Face); });
+}
+
+} // namespace
+
+bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face)
+{
+  return AnyFace(
+    lines, line, [&](std::int64_t own) { return lines.Cluster[own] == lines.Cluster[face]; });
+}
+
+bool UsesLine(const ViewLines& lines, const ViewLine& line, std::int64_t face)
+{
+  return AnyFace(lines, line, [&](std::int64_t own) { return own == face; });
 }
 
 bool MayFaceViewer(const FaceSilhouette& face)

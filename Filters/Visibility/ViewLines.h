@@ -52,22 +52,33 @@ struct ViewLines
   /// Pairs of faces whose intersection curves may be missing; see FaceIntersections::Unresolved.
   std::vector<std::array<std::int64_t, 2>> Unresolved;
   std::vector<char> IsShell; ///< One a face: it belongs to a closed, consistently oriented shell.
+  /// One a face: the lowest of those that it goes on in across smooth edges that were left out.
+  std::vector<std::int64_t> Cluster;
   bool Aborted = false;
 
+  /// True if faces, or nothing (-1), are the same or in one cluster.
+  bool AreJoined(std::int64_t a, std::int64_t b) const
+  {
+    return a == b || (a >= 0 && b >= 0 && this->Cluster[a] == this->Cluster[b]);
+  }
   /// Around the images of all lines.
   Box2 Box() const;
 };
 
 /// Makes silhouettes (on their faces' left, as in Silhouette.h; closed ones repeat their first point),
 /// intersection curves and all edges but degenerate ones, smooth ones and seams, too, with chords within
-/// the precision of `options`. `trims`: of the model.
+/// the precision of `options`. `trims`: of the model. Without `allSmooth`, smooth edges that hide
+/// nothing are left out, see FaceTheSameWay.
 ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
-  const ImagePlane& image);
+  const ImagePlane& image, bool allSmooth = true);
 
-/// True if the line may border what is seen of a face: it is an edge that the face uses, its silhouette,
-/// or where it is pierced.
+/// True if the line may border what is seen of a face or its cluster: it is an edge that the face uses,
+/// its silhouette, or where it is pierced.
 bool IsOfFace(const ViewLines& lines, const ViewLine& line, std::int64_t face);
+
+/// The same of the face alone.
+bool UsesLine(const ViewLines& lines, const ViewLine& line, std::int64_t face);
 
 /// False if all of the face turns away from the viewer, or is seen edge-on.
 bool MayFaceViewer(const FaceSilhouette& face);

@@ -15,45 +15,10 @@ namespace nurbs
 namespace
 {
 
-constexpr int FacingSamples = 5;
-constexpr double FacingCosine = 1e-6; // Less faces neither way.
 // What is in front by less than this may be the line's own surface, in pixels.
 constexpr double DepthMargin = 8.0;
 // Parts reach this far beyond where they are cut, in pixels.
 constexpr double Overlap = 2.0;
-
-// Both faces of an edge face the same way along it, and lie on either side of it.
-bool IsInner(const ViewLines& lines, const ViewLine& line, const Viewer& viewer)
-{
-  const Model& model = lines.Whole.Data;
-  const std::vector<EdgeUse>& uses = lines.Uses[line.Edge];
-  if (line.MeetsSilhouette || uses.size() != 2)
-  {
-    return false;
-  }
-  bool forward[2];
-  for (int k = 0; k < 2; ++k)
-  {
-    forward[k] = model.TrimCurves[uses[k].Curve].Reversed == model.Faces[uses[k].Face].Reversed;
-  }
-  if (forward[0] == forward[1])
-  {
-    return false;
-  }
-  const Interval domain = EdgeDomain(model, line.Edge, uses);
-  double sign = 0.0;
-  for (int k = 0; k < 2 * FacingSamples; ++k)
-  {
-    const double t = domain.Min + (k / 2 + 0.5) / FacingSamples * domain.Length();
-    const double cosine = CosineOfUse(model, uses[k % 2], domain, viewer, t);
-    if (std::abs(cosine) < FacingCosine || cosine * sign < 0.0)
-    {
-      return false;
-    }
-    sign = cosine;
-  }
-  return true;
-}
 
 // The work of FindVisibleParts.
 class PartFinder
@@ -282,7 +247,8 @@ FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer)
   for (std::size_t l = 0; l < lines.Lines.size(); ++l)
   {
     const ViewLine& line = lines.Lines[l];
-    out.IsInner[l] = line.IsEdge() && !line.IsBehind && IsInner(lines, line, viewer);
+    out.IsInner[l] = line.IsEdge() && !line.IsBehind && !line.MeetsSilhouette &&
+      FaceTheSameWay(lines.Whole.Data, line.Edge, lines.Uses[line.Edge], viewer);
     if (out.IsInner[l])
     {
       const std::int64_t a = find(lines.Uses[line.Edge][0].Face);

@@ -135,8 +135,8 @@ bool RegionMaker::MakeLines()
   options.Parts = this->Options.Parts;
   options.Parallel = this->Options.Parallel;
   options.Progress = [&](double done) { return this->Report(LinesDone * done); };
-  this->Out.Lines =
-    MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options, this->Image);
+  this->Out.Lines = MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options,
+    this->Image, this->Options.Regions || this->Options.SmoothLines);
   return !this->Out.Lines.Aborted;
 }
 
@@ -271,8 +271,9 @@ void RegionMaker::FillFace(const RegionCells& cells, std::int64_t index, TracedR
   }
   if (!settled.Visible.empty())
   {
-    face.Area = RegionArea(model, index, WholeRegion(model, index));
-    face.VisibleArea = face.IsWhole ? face.Area : RegionArea(model, index, settled.Visible);
+    FaceArea area(model, index);
+    face.Area = area.Of(WholeRegion(model, index));
+    face.VisibleArea = face.IsWhole ? face.Area : area.Of(settled.Visible);
   }
   face.Loops = std::move(this->Options.HiddenRegions ? settled.Hidden : settled.Visible);
   DropFlatLoops(model, index, face.Loops);
@@ -457,8 +458,8 @@ bool RegionMaker::DrawLines()
 VisibleRegions RegionMaker::Run()
 {
   this->CheckPrecision();
-  if (!this->MakeLines() || !this->MakeMap() || !this->Report(MapDone) || !this->FillFaces() ||
-    !this->DrawLines())
+  if (!this->MakeLines() || !this->MakeMap() || !this->Report(MapDone) ||
+    (this->Options.Regions && !this->FillFaces()) || !this->DrawLines())
   {
     this->Out = VisibleRegions();
     this->Out.Aborted = true;

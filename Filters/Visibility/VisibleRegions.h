@@ -24,6 +24,8 @@ struct VisibleRegionOptions
   /// and how narrow a region may be to be left out.
   double Precision = 1e-4;
   double FeatureAngle = 0.5235987755982988; ///< Of sharp edges, radians; 30 degrees.
+  bool Regions = true;                      ///< Off: lines only, regions stay empty.
+  bool SmoothLines = true;                  ///< Off, without regions: smooth edges may be left out.
   bool HiddenRegions = false;               ///< Regions are what is not visible.
   bool BothSides = true;                    ///< Faces are visible from behind, too.
   /// Lines within clusters of faces that face the viewer are cut by clusters' borders only.
@@ -62,7 +64,7 @@ struct VisibleRegions
 {
   std::optional<ImagePlane> Image; ///< What was projected to.
   ViewLines Lines;                 ///< With the model completed, which regions refer to.
-  std::vector<FaceRegion> Faces;   ///< One a face.
+  std::vector<FaceRegion> Faces;   ///< One a face; without regions: none.
   /// Silhouettes by face, then intersections by pair of faces, then edges by their index.
   std::vector<DrawnLine> Drawn;
   /// Faces of which now one and now the other is in front within one cell of the image: they pierce

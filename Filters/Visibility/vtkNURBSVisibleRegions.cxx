@@ -58,6 +58,8 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   options.Up = nurbs::Vec3(up[0], up[1], up[2]);
   options.Precision = this->AbsolutePrecision(pool);
   options.FeatureAngle = vtkMath::RadiansFromDegrees(this->GetFeatureAngle());
+  options.Regions = this->ComputeRegions;
+  options.SmoothLines = this->GetSmoothEdges();
   options.HiddenRegions = this->Region == HIDDEN_REGION;
   options.BothSides = this->BothSides;
   options.Clustering = this->Clustering;
@@ -84,12 +86,10 @@ void vtkNURBSVisibleRegions::Summarize(const Work& work)
     }
     return std::string("the background");
   };
-  for (std::size_t f = 0; f < work.Result.Faces.size(); ++f)
+  this->NumberOfFaces = vtkIdType(work.Pool.Model.Faces.size());
+  for (std::size_t f = 0; f < work.Result.Lines.Faces.size(); ++f)
   {
-    const nurbs::FaceRegion& face = work.Result.Faces[f];
     const nurbs::FaceSilhouette& lines = work.Result.Lines.Faces[f];
-    ++this->NumberOfFaces;
-    this->VisibleArea += face.VisibleArea;
     if (lines.Status >= nurbs::SilhouetteStatus::Capped)
     {
       if (++this->NumberOfFailedFaces <= MaxNamed)
@@ -97,7 +97,11 @@ void vtkNURBSVisibleRegions::Summarize(const Work& work)
         failed << "\n  face " << faceName(std::int64_t(f)) << ": " << lines.Message;
       }
     }
+  }
+  for (const nurbs::FaceRegion& face : work.Result.Faces)
+  {
     const bool isSeen = face.IsWhole || face.VisibleArea > 0.0;
+    this->VisibleArea += face.VisibleArea;
     this->NumberOfVisibleFaces += face.IsWhole;
     this->NumberOfPartialFaces += isSeen && !face.IsWhole;
     this->NumberOfHiddenFaces += !isSeen;
@@ -150,7 +154,10 @@ void vtkNURBSVisibleRegions::FillOutputs(
   const auto lines = work.Pool.MakeLeaves<vtkPolyData>(input, vtkDataObject::GetData(outputs, 1));
   for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
   {
-    vtkNURBSRegionOutput::FillModel(work.Result, work.Pool.Leaves[k], grids[k]);
+    if (this->ComputeRegions)
+    {
+      vtkNURBSRegionOutput::FillModel(work.Result, work.Pool.Leaves[k], grids[k]);
+    }
     vtkNURBSRegionOutput::FillLines(work.Result, work.Pool.Leaves[k], choice, lines[k]);
     this->NumberOfLines += lines[k]->GetNumberOfLines();
   }
@@ -202,6 +209,7 @@ void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ViewUp: " << this->ViewUp[0] << " " << this->ViewUp[1] << " " << this->ViewUp[2]
      << "\n";
+  os << indent << "ComputeRegions: " << this->ComputeRegions << "\n";
   os << indent << "Region: " << (this->Region == HIDDEN_REGION ? "hidden" : "visible") << "\n";
   os << indent << "BothSides: " << this->BothSides << "\n";
   os << indent << "Intersections: " << this->Intersections << "\n";

@@ -12,7 +12,7 @@
  * surface and get the visible region as trims (with SetRegion(HIDDEN_REGION): what is not visible).
  * Borders that are edges are parts of the exact trim curves and stay shared by neighbours, whose edges
  * are numbered anew. Silhouettes and shadows are polylines in (u, v). Faces without a region are left
- * out.
+ * out. Without ComputeRegions models of output 0 are empty.
  *
  * | where | array | meaning |
  * |---|---|---|
@@ -82,6 +82,17 @@ public:
 
   ///@{
   /**
+   * Whether output 0 and the figures of it are made. Off: only the drawing is, which takes about half of
+   * the time; output 0 has no cells, and what is counted of visible faces and areas stays 0. Default
+   * on.
+   */
+  vtkSetMacro(ComputeRegions, bool);
+  vtkGetMacro(ComputeRegions, bool);
+  vtkBooleanMacro(ComputeRegions, bool);
+  ///@}
+
+  ///@{
+  /**
    * What of the faces output 0 has. Default VISIBLE_REGION.
    */
   vtkSetClampMacro(Region, int, VISIBLE_REGION, HIDDEN_REGION);
@@ -146,7 +157,7 @@ public:
    * Of the last Update: faces that are visible as a whole, in part, and not at all; those of whose
    * region a part of the border was not found, and is right about only; the visible area; visible
    * lines; cells of the planar map; pairs of faces that pierce each other. All are 0 before the first
-   * Update and after an error.
+   * Update and after an error; without ComputeRegions, all but the last three are.
    */
   vtkGetMacro(NumberOfVisibleFaces, vtkIdType);
   vtkGetMacro(NumberOfPartialFaces, vtkIdType);
@@ -186,6 +197,7 @@ private:
   void ClearResults();
 
   double ViewUp[3] = { 0.0, 0.0, 1.0 };
+  bool ComputeRegions = true;
   int Region = VISIBLE_REGION;
   bool BothSides = true;
   bool Intersections = true;

@@ -36,12 +36,15 @@ void WriteReport(const Report& report, const std::string& path)
   if (report.Viewed)
   {
     json["precision"] = report.Precision;
-    json["visible_faces"] = report.VisibleFaces;
-    json["partial_faces"] = report.PartialFaces;
-    json["hidden_faces"] = report.HiddenFaces;
+    if (report.HasRegions)
+    {
+      json["visible_faces"] = report.VisibleFaces;
+      json["partial_faces"] = report.PartialFaces;
+      json["hidden_faces"] = report.HiddenFaces;
+      json["visible_area"] = report.VisibleArea;
+    }
     json["failed_faces"] = report.UnusedFaces;
     json["piercing_pairs"] = report.PiercingPairs;
-    json["visible_area"] = report.VisibleArea;
     json["lines"] = report.Lines;
     json["visible_lines"] = report.VisibleLines;
     json["seconds"]["visibility"] = report.VisibilitySeconds;

@@ -30,15 +30,16 @@ struct Report
   std::int64_t RepairedFaces = 0;
   std::int64_t CappedFaces = 0; ///< tolerance not met
 
-  bool Viewed = false;    ///< whether the figures from here to VisibleLines say anything
-  double Precision = 0.0; ///< absolute, in Unit
+  bool Viewed = false;     ///< whether the figures from here to VisibleLines say anything
+  double Precision = 0.0;  ///< absolute, in Unit
+  bool HasRegions = false; ///< whether the figures from here to VisibleArea say anything
   std::int64_t VisibleFaces = 0;
   std::int64_t PartialFaces = 0;
   std::int64_t HiddenFaces = 0;
+  double VisibleArea = 0.0; ///< in squared Unit
   std::int64_t UnusedFaces = 0;
   std::int64_t PiercingPairs = 0;
-  double VisibleArea = 0.0; ///< in squared Unit
-  std::int64_t Lines = 0;   ///< of polylines
+  std::int64_t Lines = 0; ///< of polylines
   std::int64_t VisibleLines = 0;
   bool Drawn = false;     ///< whether the figures from here to Scale say anything
   std::int64_t Paths = 0; ///< of lines that go on in each other

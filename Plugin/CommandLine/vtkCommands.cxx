@@ -249,12 +249,15 @@ void PrintViewSummary(const Session& session)
   }
   std::ostringstream text;
   text.precision(3);
-  text << session.Options.Output << ": " << figures.Faces << " faces, "
-       << figures.VisibleFaces + figures.PartialFaces << " visible (" << figures.PartialFaces
-       << " in part)";
-  if (session.Options.What == Command::Drawing)
+  text << session.Options.Output << ": " << figures.Faces << " faces, ";
+  if (figures.HasRegions)
   {
-    text << ", " << figures.Lines << " lines";
+    text << figures.VisibleFaces + figures.PartialFaces << " visible (" << figures.PartialFaces
+         << " in part)";
+  }
+  else
+  {
+    text << figures.Lines << " lines, " << figures.VisibleLines << " visible";
   }
   if (figures.Drawn)
   {

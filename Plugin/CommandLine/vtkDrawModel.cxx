@@ -66,6 +66,7 @@ void Configure(vtkNURBSVisibleRegions* regions, const Arguments& arguments, doub
   regions->SetHiddenLines(arguments.HiddenLines);
   regions->SetBothSides(arguments.BothSides);
   regions->SetProjectLines(true);
+  regions->SetComputeRegions(arguments.What != Command::Drawing);
   regions->SetRegion(arguments.HiddenRegions ? vtkNURBSVisibleRegions::HIDDEN_REGION
                                              : vtkNURBSVisibleRegions::VISIBLE_REGION);
 }
@@ -73,6 +74,7 @@ void Configure(vtkNURBSVisibleRegions* regions, const Arguments& arguments, doub
 void Fill(vtkNURBSVisibleRegions* regions, Report& report)
 {
   report.Viewed = true;
+  report.HasRegions = regions->GetComputeRegions();
   report.VisibleFaces = regions->GetNumberOfVisibleFaces();
   report.PartialFaces = regions->GetNumberOfPartialFaces();
   report.HiddenFaces = regions->GetNumberOfHiddenFaces();

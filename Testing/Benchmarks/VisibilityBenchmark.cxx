@@ -34,6 +34,7 @@ struct Options
   std::vector<std::string> Views{ "1,1,1", "0,0,1", "0.3,-0.9,0.2" };
   std::vector<double> Precisions{ 1e-4 };
   std::vector<std::string> Clustering{ "off" };
+  bool DrawingOnly = false;
   int Threads = 1;
   int Repeat = 1;
 };
@@ -74,7 +75,7 @@ vtkIdType CountPoints(vtkDataObject* data)
 }
 
 nlohmann::json Run(vtkDataObject* model, const std::string& view, double precision,
-  const std::string& clustering, int repeat)
+  const std::string& clustering, const Options& options)
 {
   double direction[3];
   if (std::sscanf(view.c_str(), "%lf,%lf,%lf", direction, direction + 1, direction + 2) != 3)
@@ -86,7 +87,8 @@ nlohmann::json Run(vtkDataObject* model, const std::string& view, double precisi
   filter->SetDirection(direction);
   filter->SetPrecision(precision);
   filter->SetClustering(clustering == "on");
-  const measuring::Duration taken = measuring::MedianTime(repeat, [&] {
+  filter->SetComputeRegions(!options.DrawingOnly);
+  const measuring::Duration taken = measuring::MedianTime(options.Repeat, [&] {
     filter->Modified();
     filter->Update();
   });
@@ -111,6 +113,7 @@ int main(int argc, char** argv)
   app.add_option("--view", options.Views, "x,y,z: to the viewer")->capture_default_str();
   app.add_option("--precision", options.Precisions, "of the diagonal")->capture_default_str();
   app.add_option("--clustering", options.Clustering)->check(CLI::IsMember({ "on", "off" }));
+  app.add_flag("--drawing-only", options.DrawingOnly, "without regions and areas");
   app.add_option("--threads", options.Threads)->capture_default_str();
   app.add_option("--repeat", options.Repeat, "runs of which the median counts")
     ->capture_default_str();
@@ -128,7 +131,7 @@ int main(int argc, char** argv)
       {
         for (const std::string& clustering : options.Clustering)
         {
-          result["runs"].push_back(Run(model, view, precision, clustering, options.Repeat));
+          result["runs"].push_back(Run(model, view, precision, clustering, options));
         }
       }
     }

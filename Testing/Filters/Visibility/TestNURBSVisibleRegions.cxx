@@ -258,6 +258,41 @@ TEST(NURBSVisibleRegions, LinesAreMadeAsAsked)
   }
 }
 
+// The same drawing, and a model of nothing. Without smooth edges, those that hide nothing are not looked
+// at: the end of a silhouette that hides itself is elsewhere within the precision, which is far along it.
+TEST(NURBSVisibleRegions, DrawingsNeedNoRegions)
+{
+  for (const bool smooth : { false, true })
+  {
+    vtkNew<vtkNURBSVisibleRegions> filters[2];
+    for (int k = 0; k < 2; ++k)
+    {
+      filters[k]->SetInputData(Shape(vtkNURBSShapeSource::TEAPOT));
+      filters[k]->SetDirection(1, -2, 1);
+      filters[k]->SetSmoothEdges(smooth);
+      filters[k]->SetComputeRegions(k == 0);
+      filters[k]->Update();
+      EXPECT_EQ(filters[k]->GetNumberOfFaces(), 32);
+      EXPECT_EQ(Models(filters[k])->GetNumberOfCells() > 0, k == 0);
+      EXPECT_EQ(filters[k]->GetVisibleArea() > 0.0, k == 0);
+      EXPECT_EQ(filters[k]->GetNumberOfVisibleFaces() > 0, k == 0);
+      EXPECT_EQ(filters[k]->GetNumberOfPartialFaces() > 0, k == 0);
+      EXPECT_EQ(filters[k]->GetNumberOfHiddenFaces() > 0, k == 0);
+    }
+    EXPECT_EQ(filters[0]->GetNumberOfCells() > filters[1]->GetNumberOfCells(), !smooth);
+    ASSERT_GT(filters[0]->GetNumberOfLines(), filters[0]->GetNumberOfVisibleLines());
+    EXPECT_EQ(filters[0]->GetNumberOfVisibleLines(), filters[1]->GetNumberOfVisibleLines());
+    for (int kind = 0; kind <= 4; ++kind)
+    {
+      for (int visible = 0; visible < 2; ++visible)
+      {
+        EXPECT_NEAR(Length(filters[0]->GetLines(), kind, visible),
+          Length(filters[1]->GetLines(), kind, visible), smooth ? 0.0 : 0.1);
+      }
+    }
+  }
+}
+
 // The bounds of projected lines.
 std::array<double, 6> ProjectedBounds(vtkNURBSVisibleRegions* filter)
 {

@@ -247,7 +247,7 @@ TEST(VisibleRegions, HiddenIsTheRest)
     Case hidden;
     hidden.Result = nurbs::MakeVisibleRegions(torus.Made.Model, torus.Made.FaceErrors, options);
     const Model& model = hidden.Result.Lines.Whole.Data;
-    EXPECT_NEAR(torus.VisibleArea() + nurbs::RegionArea(model, 0, hidden.Result.Faces[0].Loops),
+    EXPECT_NEAR(torus.VisibleArea() + nurbs::FaceArea(model, 0).Of(hidden.Result.Faces[0].Loops),
       4.0 * PI * PI * 2.0 * 0.7, 1e-6);
     EXPECT_EQ(CountCrossings(hidden.Result), 0);
   }
