@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CompletedModel.h"
 
+#include "VertexSets.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -29,16 +31,6 @@ TrimCurve StraightCurve(CompletedModel& out, const Vec2& a, const Vec2& b, const
   TrimCurve curve;
   curve.Geometry = out.OwnCurves.back().View();
   return curve;
-}
-
-void MakeDegenerate(Edge& edge)
-{
-  static const double pole[4] = { 0.0, 0.0, 0.0, 1.0 };
-  static const double knots[2] = { 0.0, 1.0 };
-  edge.Geometry.Degree = 0;
-  edge.Geometry.Count = 1;
-  edge.Geometry.Points = pole;
-  edge.Geometry.Knots = KnotView(knots, 2);
 }
 
 std::int64_t AddEdge(CompletedModel& out, bool degenerate)
@@ -175,30 +167,6 @@ void MatchSides(CompletedModel& out, std::size_t firstLoop, double tolerance)
   }
 }
 
-struct UnionFind
-{
-  std::vector<std::int64_t> Parent;
-  explicit UnionFind(std::size_t n)
-    : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  std::int64_t Find(std::int64_t x)
-  {
-    while (this->Parent[x] != x)
-    {
-      x = this->Parent[x] = this->Parent[this->Parent[x]];
-    }
-    return x;
-  }
-  void Join(std::int64_t a, std::int64_t b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->Parent[std::max(a, b)] = std::min(a, b);
-  }
-};
-
 // Gives every edge end a vertex: ends that meet in a loop share it.
 void CompleteVertices(CompletedModel& out, const std::vector<std::string>& faceErrors)
 {
@@ -321,73 +289,6 @@ Interval EdgeDomain(const Model& model, std::int64_t edge, const std::vector<Edg
     return c.Domain();
   }
   return model.TrimCurves[uses.front().Curve].Geometry.Domain();
-}
-
-// Bound of the length of an edge between its vertices.
-static double LengthBound(const Model& model, const Edge& edge)
-{
-  const CurveView<3>& c = edge.Geometry;
-  double length = (c.Point(0) - model.Vertices[edge.Vertex[0]]).norm() +
-    (c.Point(c.Count - 1) - model.Vertices[edge.Vertex[1]]).norm();
-  for (int i = 1; i < c.Count; ++i)
-  {
-    length += (c.Point(i) - c.Point(i - 1)).norm();
-  }
-  return length;
-}
-
-void CollapseShortEdges(CompletedModel& out, const std::vector<double>& shortest)
-{
-  Model& model = out.Data;
-  std::vector<double> length(model.Edges.size(), -1.0); // Of short edges only.
-  for (std::size_t e = 0; e < length.size(); ++e)
-  {
-    const Edge& edge = model.Edges[e];
-    if (edge.Geometry.Count > 1 && shortest[e] > 0.0)
-    {
-      const double bound = LengthBound(model, edge);
-      length[e] = bound <= shortest[e] ? bound : -1.0;
-    }
-  }
-  for (const TrimLoop& loop : model.Loops)
-  {
-    const auto edgeOf = [&](std::int64_t k) { return model.TrimCurves[loop.FirstCurve + k].Edge; };
-    std::int64_t longer = 0;
-    for (std::int64_t k = 0; k < loop.CurveCount; ++k)
-    {
-      longer += length[edgeOf(k)] < 0.0 && !IsDegenerate(model.Edges[edgeOf(k)]);
-    }
-    for (std::int64_t k = 0; k < loop.CurveCount && longer < 2; ++k)
-    {
-      length[edgeOf(k)] = -1.0;
-    }
-  }
-  UnionFind sets(model.Vertices.size());
-  std::vector<double> extent(model.Vertices.size(), 0.0); // Of each set.
-  for (std::size_t e = 0; e < length.size(); ++e)
-  {
-    Edge& edge = model.Edges[e];
-    if (length[e] < 0.0)
-    {
-      continue;
-    }
-    const std::int64_t a = sets.Find(edge.Vertex[0]);
-    const std::int64_t b = sets.Find(edge.Vertex[1]);
-    const double together = length[e] + extent[a] + (a == b ? 0.0 : extent[b]);
-    if (together <= shortest[e])
-    {
-      sets.Join(a, b);
-      extent[sets.Find(a)] = together;
-      MakeDegenerate(edge);
-    }
-  }
-  for (Edge& edge : model.Edges)
-  {
-    for (std::int64_t& vertex : edge.Vertex)
-    {
-      vertex = vertex < 0 ? vertex : sets.Find(vertex);
-    }
-  }
 }
 
 } // namespace nurbs

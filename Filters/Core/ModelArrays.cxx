@@ -596,7 +596,7 @@ AssembledModel Assembler::Run()
   }
   if (this->Options.CheckEdges)
   {
-    ReleaseMovedEdges(this->Result, this->Parallel);
+    ReleaseMovedEdges(this->Result, this->Options.Around, this->Parallel);
   }
   return std::move(this->Result);
 }

@@ -360,17 +360,8 @@ ComparedPoints LiftedPoints(const SurfaceView& surface, const CurveView<2>& curv
   return points;
 }
 
-double ModelSize(const Model& model)
+double SizeOf(const Box3& box)
 {
-  Box3 box;
-  for (const Face& face : model.Faces)
-  {
-    const Box3 net = NetBox(face.Geometry);
-    if (!net.isEmpty())
-    {
-      box.extend(net);
-    }
-  }
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
@@ -408,11 +399,25 @@ bool CurveMoved(const Edge& edge, const ComparedPoints& lifted, double limit)
 
 } // namespace
 
-void ReleaseMovedEdges(AssembledModel& result, const ParallelFor& parallel)
+Box3 BoxOfNets(const Model& model)
+{
+  Box3 box;
+  for (const Face& face : model.Faces)
+  {
+    const Box3 net = NetBox(face.Geometry);
+    if (!net.isEmpty())
+    {
+      box.extend(net);
+    }
+  }
+  return box;
+}
+
+void ReleaseMovedEdges(AssembledModel& result, const Box3& around, const ParallelFor& parallel)
 {
   Model& model = result.Model;
   const std::vector<EdgeUse> uses = FirstUses(model);
-  const double negligible = 1e-6 * ModelSize(model);
+  const double negligible = 1e-6 * SizeOf(around.isEmpty() ? BoxOfNets(model) : around);
   std::vector<ComparedPoints> lifted(model.Edges.size());
   std::vector<char> moved(model.Edges.size(), 0);
   parallel(0, model.Edges.size(), [&](std::int64_t begin, std::int64_t end) {

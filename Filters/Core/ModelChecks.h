@@ -23,7 +23,11 @@ bool IsNaturallyBounded(const Model& model, const Face& face);
 
 /// Compares every edge with the first trim curve that names it, at both ends and between. An
 /// edge that is farther away than four times its tolerance (and 1e-6 of the model's size) was left
-/// behind when points were moved: AssembleOptions::CheckEdges says what happens then.
-void ReleaseMovedEdges(AssembledModel& model, const ParallelFor& parallel);
+/// behind when points were moved: AssembleOptions::CheckEdges says what happens then. `around`: as
+/// AssembleOptions::Around.
+void ReleaseMovedEdges(AssembledModel& model, const Box3& around, const ParallelFor& parallel);
+
+/// Box of the control points of all faces.
+Box3 BoxOfNets(const Model& model);
 
 } // namespace nurbs

@@ -139,7 +139,8 @@ bool vtkNURBSModel::IsTrimArray(const char* name)
          names::TrimCurvePointStart, names::TrimCurvePointCount, names::TrimCurveEdgeId,
          names::TrimCurveReversed, names::TrimPoints, names::TrimKnots, names::EdgeDegree,
          names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
-         names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints })
+         names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints,
+         names::EdgeGlobalId, names::VertexGlobalId })
   {
     if (name && !strcmp(name, trim))
     {
@@ -357,7 +358,8 @@ constexpr const char* StructureNames[] = { names::Knots, names::LoopCurveStart,
   names::TrimCurvePointStart, names::TrimCurvePointCount, names::TrimCurveEdgeId,
   names::TrimCurveReversed, names::TrimPoints, names::TrimKnots, names::EdgeDegree,
   names::EdgeKnotStart, names::EdgePointStart, names::EdgePointCount, names::EdgeVertices,
-  names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints };
+  names::EdgeTolerance, names::EdgePoints, names::EdgeKnots, names::VertexPoints,
+  names::EdgeGlobalId, names::VertexGlobalId, names::WholeBounds };
 } // namespace
 
 std::vector<vtkAbstractArray*> vtkNURBSModel::GetStructureArrays(vtkUnstructuredGrid* grid)
@@ -415,6 +417,33 @@ vtkIdType vtkNURBSModel::GetFaceId(vtkUnstructuredGrid* grid, vtkIdType cell)
   vtkDataArray* ids = grid->GetCellData()->GetArray(names::FaceId);
   return ids && cell < ids->GetNumberOfTuples() ? static_cast<vtkIdType>(ids->GetTuple1(cell))
                                                 : cell;
+}
+
+void vtkNURBSModel::SetGlobalIds(
+  vtkUnstructuredGrid* grid, std::vector<std::int64_t>& edges, std::vector<std::int64_t>& vertices)
+{
+  MoveArray<vtkTypeInt64Array>(grid->GetFieldData(), names::EdgeGlobalId, 1, edges);
+  MoveArray<vtkTypeInt64Array>(grid->GetFieldData(), names::VertexGlobalId, 1, vertices);
+}
+
+void vtkNURBSModel::SetWholeBounds(vtkUnstructuredGrid* grid, const nurbs::Box3& box)
+{
+  vtkNew<vtkDoubleArray> bounds;
+  bounds->SetName(names::WholeBounds);
+  bounds->SetNumberOfComponents(6);
+  bounds->SetNumberOfTuples(1);
+  for (int k = 0; k < 3; ++k)
+  {
+    bounds->SetTypedComponent(0, 2 * k, box.min()[k]);
+    bounds->SetTypedComponent(0, 2 * k + 1, box.max()[k]);
+  }
+  grid->GetFieldData()->AddArray(bounds);
+}
+
+bool vtkNURBSModel::HasGlobalIds(vtkUnstructuredGrid* grid)
+{
+  vtkFieldData* field = grid->GetFieldData();
+  return field->HasArray(names::EdgeGlobalId) && field->HasArray(names::VertexGlobalId);
 }
 
 const char* vtkNURBSModel::FaceIdName()

@@ -30,6 +30,10 @@
  * | field data | EdgeVertices | 2 integers an edge | start and end in VertexPoints, or -1 |
  * | field data | EdgePoints | 4 reals | x, y, z, weight |
  * | field data | VertexPoints | 3 reals | positions where edges meet |
+ * | field data | EdgeGlobalId, VertexGlobalId | 1 integer an edge or vertex | of a piece of a model
+ *   only: its number in the whole model, by which pieces fit together |
+ * | field data | WholeBounds | 6 reals | of a piece with faces of its neighbours only: xmin, xmax, ... of
+ *   the control points of the whole model |
  * | field data | LengthUnit | string | unit of the points, for example "mm" |
  *
  * A face's material lies on the left of its loops in the (u, v) plane. Cells may be dropped or
@@ -42,12 +46,14 @@
 #ifndef vtkNURBSModel_h
 #define vtkNURBSModel_h
 
+#include "Types.h"
 #include "vtkNURBSFiltersCoreModule.h" // For export macro
 #include "vtkObject.h"
 
-#include <memory> // For std::shared_ptr
-#include <string> // For std::string
-#include <vector> // For std::vector
+#include <cstdint> // For std::int64_t
+#include <memory>  // For std::shared_ptr
+#include <string>  // For std::string
+#include <vector>  // For std::vector
 
 class vtkAbstractArray;
 class vtkDataArray;
@@ -147,6 +153,23 @@ public:
    * Passes the other arrays of a model's field data on, see RemoveStructure.
    */
   static void PassWithoutStructure(vtkFieldData* model, vtkFieldData* output);
+
+  /**
+   * Stores the numbers that the edges and vertices of a piece of a model have in the whole one (see
+   * nurbs::PieceBuilder). The vectors are emptied.
+   */
+  static void SetGlobalIds(vtkUnstructuredGrid* grid, std::vector<std::int64_t>& edges,
+    std::vector<std::int64_t>& vertices);
+
+  /**
+   * Stores the box of the control points of the model that the grid is a piece of.
+   */
+  static void SetWholeBounds(vtkUnstructuredGrid* grid, const nurbs::Box3& box);
+
+  /**
+   * True if the grid is a piece of a model that tells them.
+   */
+  static bool HasGlobalIds(vtkUnstructuredGrid* grid);
 
   ///@{
   /**

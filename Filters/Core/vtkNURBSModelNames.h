@@ -43,6 +43,9 @@ inline constexpr char EdgeTolerance[] = "EdgeTolerance";
 inline constexpr char EdgePoints[] = "EdgePoints";
 inline constexpr char EdgeKnots[] = "EdgeKnots";
 inline constexpr char VertexPoints[] = "VertexPoints";
+inline constexpr char EdgeGlobalId[] = "EdgeGlobalId";
+inline constexpr char VertexGlobalId[] = "VertexGlobalId";
+inline constexpr char WholeBounds[] = "WholeBounds";
 inline constexpr char LengthUnit[] = "LengthUnit";
 inline constexpr char UnconvertedFaces[] = "UnconvertedFaces";
 // Cell data of outputs.

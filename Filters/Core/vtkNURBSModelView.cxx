@@ -244,10 +244,35 @@ vtkNURBSModelView::vtkNURBSModelView(
   }
   Internals& content = *this->Content;
   content.Collect(grid);
-  content.Assembled = nurbs::AssembleModel(content.Arrays, options, SMPFor);
+  nurbs::AssembleOptions of = options;
+  const Internals::Reals bounds =
+    content.FindReals(grid->GetFieldData(), names::WholeBounds, 6, false);
+  if (bounds.size() == 6)
+  {
+    of.Around = nurbs::Box3(
+      nurbs::Vec3(bounds[0], bounds[2], bounds[4]), nurbs::Vec3(bounds[1], bounds[3], bounds[5]));
+  }
+  content.Assembled = nurbs::AssembleModel(content.Arrays, of, SMPFor);
   std::vector<ModelProblem>& problems = content.Assembled.Problems;
   problems.insert(problems.begin(), content.ArrayProblems.begin(), content.ArrayProblems.end());
   content.CheckCells(grid);
+}
+
+vtkNURBSModelView::vtkNURBSModelView()
+  : Content(new Internals)
+{}
+
+vtkNURBSModelView::Raw vtkNURBSModelView::GetRaw(vtkUnstructuredGrid* grid)
+{
+  Raw raw;
+  raw.Owner.reset(new vtkNURBSModelView);
+  Internals& content = *raw.Owner->Content;
+  content.Collect(grid);
+  raw.Arrays = content.Arrays;
+  vtkFieldData* field = grid->GetFieldData();
+  raw.EdgeIds = content.FindIntegers(field, names::EdgeGlobalId, 1, false);
+  raw.VertexIds = content.FindIntegers(field, names::VertexGlobalId, 1, false);
+  return raw;
 }
 
 vtkNURBSModelView::~vtkNURBSModelView() = default;

@@ -25,6 +25,15 @@ public:
   /// data: see GetProblems. A null grid gives an empty model.
   explicit vtkNURBSModelView(
     vtkUnstructuredGrid* grid, const nurbs::AssembleOptions& options = nurbs::AssembleOptions());
+  /// The grid's arrays as they are, without a look at what they hold: GetArrays only. The ids are its
+  /// EdgeGlobalId and VertexGlobalId, empty if it has none.
+  struct Raw
+  {
+    std::unique_ptr<vtkNURBSModelView> Owner; ///< Keeps them alive.
+    nurbs::ModelArrays Arrays;
+    nurbs::ModelArrays::Integers EdgeIds, VertexIds;
+  };
+  static Raw GetRaw(vtkUnstructuredGrid* grid);
   ~vtkNURBSModelView();
   vtkNURBSModelView(const vtkNURBSModelView&) = delete;
   vtkNURBSModelView& operator=(const vtkNURBSModelView&) = delete;
@@ -49,6 +58,7 @@ public:
   std::string DescribeFaceErrors() const;
 
 private:
+  vtkNURBSModelView();
   struct Internals;
   std::unique_ptr<Internals> Content;
 };

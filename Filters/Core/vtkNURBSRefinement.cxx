@@ -7,6 +7,7 @@
 #include "vtkNURBSModelNames.h"
 #include "vtkNURBSModelView.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -324,13 +325,14 @@ int vtkNURBSRefinement::RequestDataObject(
   return 1;
 }
 
-double vtkNURBSRefinement::AbsoluteSpacing(const std::vector<Part>& parts) const
+double vtkNURBSRefinement::AbsoluteSpacing(
+  const std::vector<Part>& parts, const vtkNURBSPieces& pieces) const
 {
   if (this->SpacingMode == ABSOLUTE)
   {
     return this->MaximumSpacing;
   }
-  std::vector<nurbs::Box3> boxes;
+  nurbs::Box3 box;
   for (const Part& part : parts)
   {
     const nurbs::Model& model = part.View->GetModel();
@@ -339,10 +341,12 @@ double vtkNURBSRefinement::AbsoluteSpacing(const std::vector<Part>& parts) const
     {
       errors.push_back(part.View->GetFaceError(vtkIdType(f)));
     }
-    const auto some = nurbs::FaceBoxes(model, errors, LoopOver(errors.size()));
-    boxes.insert(boxes.end(), some.begin(), some.end());
+    for (const nurbs::Box3& some : nurbs::FaceBoxes(model, errors, LoopOver(errors.size())))
+    {
+      box.extend(some);
+    }
   }
-  const double diagonal = nurbs::Diagonal(boxes);
+  const double diagonal = nurbs::Diagonal({ pieces.Around(box) });
   return this->MaximumSpacing * (diagonal > 0.0 ? diagonal : 1.0);
 }
 
@@ -430,7 +434,7 @@ void vtkNURBSRefinement::Summarize(const std::vector<Part>& parts)
 }
 
 int vtkNURBSRefinement::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
@@ -445,9 +449,13 @@ int vtkNURBSRefinement::RequestData(
   {
     problem = "The input is not a NURBS model: it lacks the arrays that describe surfaces";
   }
-  if (!problem.empty())
+  const vtkNURBSPieces pieces(request, outputs);
+  // What one process can't do none does, as they would wait for it.
+  double failed = problem.empty() ? 0.0 : 1.0;
+  pieces.Largest(&failed, 1);
+  if (failed > 0.0)
   {
-    vtkErrorMacro(<< problem);
+    vtkErrorMacro(<< (problem.empty() ? "The input of another process can't be refined" : problem));
     output->Initialize();
     this->SetErrorCode(vtkErrorCode::UserError);
     return 0;
@@ -459,10 +467,10 @@ int vtkNURBSRefinement::RequestData(
   {
     parts.push_back({ grid, vtkNURBSModel::View(grid), {}, {} });
   }
-  if (!this->Refine(parts, this->AbsoluteSpacing(parts)))
+  if (!this->Refine(parts, this->AbsoluteSpacing(parts, pieces)))
   {
+    parts.clear();
     output->Initialize();
-    return 1;
   }
   this->Summarize(parts);
   for (Part& part : parts)
@@ -475,6 +483,12 @@ int vtkNURBSRefinement::RequestData(
     this->NumberOfControlPoints += part.Grid->GetNumberOfPoints();
     part.Nets.clear();
   }
+  vtkIdType figures[] = { this->NumberOfRefinedFaces, this->NumberOfCappedFaces,
+    this->NumberOfControlPoints };
+  pieces.Sum(figures, 3);
+  this->NumberOfRefinedFaces = figures[0];
+  this->NumberOfCappedFaces = figures[1];
+  this->NumberOfControlPoints = figures[2];
   this->UpdateProgress(1.0);
   return 1;
 }

@@ -33,6 +33,8 @@
 
 #include <vector> // For the faces
 
+class vtkNURBSPieces;
+
 class VTKNURBSFILTERSCORE_EXPORT vtkNURBSRefinement : public vtkDataObjectAlgorithm
 {
 public:
@@ -57,6 +59,7 @@ public:
   vtkGetMacro(MaximumSpacing, double);
   ///@}
 
+  /// What SpacingMode may be.
   enum SpacingModes
   {
     RELATIVE = 0,
@@ -120,7 +123,7 @@ private:
   void operator=(const vtkNURBSRefinement&) = delete;
 
   struct Part;
-  double AbsoluteSpacing(const std::vector<Part>& parts) const;
+  double AbsoluteSpacing(const std::vector<Part>& parts, const vtkNURBSPieces& pieces) const;
   bool Refine(std::vector<Part>& parts, double spacing);
   void Summarize(const std::vector<Part>& parts);
 

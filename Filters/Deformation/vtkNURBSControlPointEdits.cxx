@@ -9,6 +9,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -117,6 +118,8 @@ struct vtkNURBSControlPointEdits::vtkInternals
   std::vector<vtkEdit> Waiting; // For the input's data.
   std::map<std::int64_t, vtkNURBSEditedModel> Models;
   std::map<std::int64_t, std::vector<vtkIdType>> Touched; // Since the output of the block was made.
+  std::unique_ptr<vtkNURBSPieces> Pieces;                 // Of the last request.
+  vtkDataObject* Whole = nullptr; // All processes' models; null: there are no other processes.
 
   // The model of a block (FirstModel: of the first that is one), null if there is none. `block` is
   // then its flat index.
@@ -201,7 +204,7 @@ bool vtkNURBSControlPointEdits::Accept(const vtkEdit& edit)
   {
     return true;
   }
-  vtkDataObject* input = this->GetNumberOfInputConnections(0) > 0 ? this->GetInput() : nullptr;
+  vtkDataObject* input = this->GetNumberOfInputConnections(0) > 0 ? this->EditedInput() : nullptr;
   if (HasModel(input))
   {
     this->ResolveWaiting();
@@ -229,7 +232,7 @@ bool vtkNURBSControlPointEdits::Resolve(const vtkEdit& edit)
 {
   vtkInternals& self = *this->Internals;
   std::int64_t block = edit.Block;
-  vtkNURBSEditedModel* model = self.Find(this->GetInput(), block);
+  vtkNURBSEditedModel* model = self.Find(this->EditedInput(), block);
   if (!model)
   {
     vtkErrorMacro("Edit refused: block " << block << " is no NURBS model with control points");
@@ -372,7 +375,7 @@ bool vtkNURBSControlPointEdits::GetBlockControlPoint(
   unsigned int block, vtkIdType point, double position[3])
 {
   std::int64_t at = block;
-  vtkNURBSEditedModel* model = this->Internals->Find(this->GetInput(), at);
+  vtkNURBSEditedModel* model = this->Internals->Find(this->EditedInput(), at);
   if (!model || point < 0 || point >= model->GetNumberOfPoints())
   {
     return false;
@@ -385,7 +388,7 @@ bool vtkNURBSControlPointEdits::GetBlockControlPoint(
 double vtkNURBSControlPointEdits::GetBlockControlPointWeight(unsigned int block, vtkIdType point)
 {
   std::int64_t at = block;
-  vtkNURBSEditedModel* model = this->Internals->Find(this->GetInput(), at);
+  vtkNURBSEditedModel* model = this->Internals->Find(this->EditedInput(), at);
   return model && point >= 0 && point < model->GetNumberOfPoints()
     ? this->Internals->Weight(*model, { at, point })
     : 0.0;
@@ -396,7 +399,7 @@ void vtkNURBSControlPointEdits::GetCoincidentControlPoints(
 {
   points->Initialize();
   std::int64_t at = block;
-  vtkNURBSEditedModel* model = this->Internals->Find(this->GetInput(), at);
+  vtkNURBSEditedModel* model = this->Internals->Find(this->EditedInput(), at);
   if (!model || point < 0 || point >= model->GetNumberOfPoints())
   {
     return;
@@ -485,12 +488,52 @@ void vtkNURBSControlPointEdits::Fill(
   vtkErrorMacro("Edits left out: block " << block << " has no control point " << text.str());
 }
 
-int vtkNURBSControlPointEdits::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+vtkDataObject* vtkNURBSControlPointEdits::EditedInput()
+{
+  return this->Internals->Whole ? this->Internals->Whole : this->GetInput();
+}
+
+// Points are numbered over the models of all processes, and edits are checked against them.
+std::string vtkNURBSControlPointEdits::Gather(
+  vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs)
 {
   vtkInternals& self = *this->Internals;
+  auto pieces = std::make_unique<vtkNURBSPieces>(request, outputs);
+  const bool same = self.Pieces && self.Pieces->IsParallel() == pieces->IsParallel();
+  if (same && pieces->IsParallel() && self.Pieces->IsUpToDate(input))
+  {
+    return std::string();
+  }
+  self.Pieces = std::move(pieces);
+  std::string problem;
+  vtkDataObject* whole = self.Pieces->Gather(input, problem);
+  self.Whole = self.Pieces->IsParallel() ? whole : nullptr;
+  return self.Whole ? problem : std::string();
+}
+
+int vtkNURBSControlPointEdits::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const std::string problem = this->Gather(input, request, outputs);
+  if (!problem.empty())
+  {
+    output->ShallowCopy(input);
+    vtkErrorMacro(<< problem);
+    return 1;
+  }
+  const int done = this->Edit(this->Internals->Whole ? this->Internals->Whole : input, output);
+  if (this->Internals->Whole)
+  {
+    this->Internals->Pieces->Keep(output);
+  }
+  return done;
+}
+
+int vtkNURBSControlPointEdits::Edit(vtkDataObject* input, vtkDataObject* output)
+{
+  vtkInternals& self = *this->Internals;
   this->ResolveWaiting();
   for (const nurbs::ControlPointKey& key : self.History.TakeTouched())
   {

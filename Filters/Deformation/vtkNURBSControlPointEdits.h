@@ -36,6 +36,7 @@
 #include "vtkPassInputTypeAlgorithm.h"
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkIdTypeArray;
 class vtkNURBSEditedModel;
@@ -179,6 +180,9 @@ private:
   struct vtkInternals;
 
   bool Accept(const vtkEdit& edit);
+  vtkDataObject* EditedInput();
+  std::string Gather(vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs);
+  int Edit(vtkDataObject* input, vtkDataObject* output);
   bool Resolve(const vtkEdit& edit);
   void ResolveWaiting();
   void Fill(vtkNURBSEditedModel& model, unsigned int block, vtkUnstructuredGrid* output);

@@ -12,6 +12,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -98,6 +99,11 @@ struct vtkNURBSDeformingTessellator::Leaf
 // What one Update works on.
 struct vtkNURBSDeformingTessellator::Frame
 {
+  Frame(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
+  vtkDataObject* Input = nullptr; ///< Of all processes.
   std::vector<vtkNURBSModelPool::Block> Blocks;
   std::vector<std::unique_ptr<Leaf>>
     Fresh; ///< Of models of another structure; null: it is the same.
@@ -163,7 +169,9 @@ bool vtkNURBSDeformingTessellator::MakeFrame(vtkDataObject* input, Frame& frame)
     vtkErrorMacro("AbsoluteTolerance must be positive, but is " << this->AbsoluteTolerance);
     return false;
   }
-  const std::string problem = vtkNURBSModelPool::Find(input, frame.Blocks);
+  std::string problem;
+  frame.Input = frame.Pieces.Gather(input, problem);
+  problem = problem.empty() ? vtkNURBSModelPool::Find(frame.Input, frame.Blocks) : problem;
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem);
@@ -511,13 +519,13 @@ void vtkNURBSDeformingTessellator::ClearResults()
 }
 
 int vtkNURBSDeformingTessellator::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
   const vtkNURBSParallelScope parallel;
-  Frame frame;
+  Frame frame(request, outputs);
   if (!this->MakeFrame(input, frame))
   {
     this->Leaves.clear();
@@ -541,7 +549,8 @@ int vtkNURBSDeformingTessellator::RequestData(
     this->UpdateProgress(double(k + 1) / double(frame.Blocks.size()));
   }
   const double start = Now();
-  this->FillOutput(input, output);
+  this->FillOutput(frame.Input, output);
+  frame.Pieces.Keep(output);
   this->OutputSeconds += Now() - start;
   this->Summarize();
   const bool done = this->Complain(frame);

@@ -10,6 +10,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -80,7 +81,8 @@ std::vector<vtkUnstructuredGrid*> ShareModels(vtkDataObject* input, vtkDataObjec
   return models;
 }
 
-nurbs::Box3 BoxOf(const std::vector<vtkUnstructuredGrid*>& models)
+/// Around the models of all processes.
+nurbs::Box3 BoxOf(const std::vector<vtkUnstructuredGrid*>& models, const vtkNURBSPieces& pieces)
 {
   nurbs::Box3 box;
   for (vtkUnstructuredGrid* model : models)
@@ -91,7 +93,7 @@ nurbs::Box3 BoxOf(const std::vector<vtkUnstructuredGrid*>& models)
       box.extend(nurbs::BoxOfFinitePoints(xyz->GetPointer(0), xyz->GetNumberOfTuples()));
     }
   }
-  return box;
+  return pieces.Around(box);
 }
 
 /// The box with a margin, a part of its diagonal, and not flat.
@@ -331,11 +333,11 @@ int vtkNURBSFreeFormDeformation::RequestUpdateExtent(
 }
 
 nurbs::FreeFormLattice vtkNURBSFreeFormDeformation::MakeLattice(
-  const Grids& models, vtkPointSet* places) const
+  const Grids& models, vtkPointSet* places, const vtkNURBSPieces& pieces) const
 {
   const double* b = this->Bounds;
   nurbs::Box3 box(nurbs::Vec3(b[0], b[2], b[4]), nurbs::Vec3(b[1], b[3], b[5]));
-  const nurbs::Box3 around = this->UseInputBounds ? BoxOf(models) : nurbs::Box3();
+  const nurbs::Box3 around = this->UseInputBounds ? BoxOf(models, pieces) : nurbs::Box3();
   if (!around.isEmpty())
   {
     box = Widened(around, this->Margin);
@@ -420,19 +422,21 @@ void vtkNURBSFreeFormDeformation::FillLattice(
 }
 
 int vtkNURBSFreeFormDeformation::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[ModelPort]);
   vtkDataObject* output = vtkDataObject::GetData(outputs, ModelPort);
   vtkStructuredGrid* shown = vtkStructuredGrid::GetData(outputs, LatticePort);
   this->NumberOfMovedPoints = 0;
   const vtkNURBSParallelScope parallel;
+  const vtkNURBSPieces pieces(request, outputs);
   try
   {
     const Grids models = ShareModels(input, output);
     const nurbs::FreeFormLattice lattice =
-      this->MakeLattice(models, vtkPointSet::GetData(inputs[LatticePort]));
+      this->MakeLattice(models, vtkPointSet::GetData(inputs[LatticePort]), pieces);
     this->Deform(lattice, models);
+    pieces.Sum(&this->NumberOfMovedPoints, 1);
     this->FillLattice(lattice, shown);
   }
   catch (const nurbs::Error& problem)

@@ -61,6 +61,7 @@
 #include <memory> // For std::unique_ptr
 #include <vector> // For the displacements
 
+class vtkNURBSPieces;
 class vtkPointSet;
 class vtkPoints;
 class vtkStructuredGrid;
@@ -180,6 +181,7 @@ public:
    */
   vtkGetMacro(NumberOfMovedPoints, vtkIdType);
 
+  /// The lattice's included.
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -204,7 +206,8 @@ private:
   using Grids = std::vector<vtkUnstructuredGrid*>;
   vtkIdType IndexOf(int i, int j, int k) const;
   bool HasLatticePoint(vtkIdType index);
-  nurbs::FreeFormLattice MakeLattice(const Grids& models, vtkPointSet* places) const;
+  nurbs::FreeFormLattice MakeLattice(
+    const Grids& models, vtkPointSet* places, const vtkNURBSPieces& pieces) const;
   void Deform(const nurbs::FreeFormLattice& lattice, const Grids& models);
   void FillLattice(const nurbs::FreeFormLattice& lattice, vtkStructuredGrid* output) const;
 

@@ -2,6 +2,7 @@
 #include "vtkNURBSCADReader.h"
 
 #include "CADDocument.h"
+#include "PieceBuilder.h"
 #include "vtkCellData.h"
 #include "vtkDataAssembly.h"
 #include "vtkDoubleArray.h"
@@ -9,6 +10,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
@@ -43,7 +45,29 @@ struct Model
   nurbs::ModelBuilder Builder;
   std::vector<double> Errors;
   std::vector<std::string> Unconverted;
+  std::vector<std::int64_t> EdgeIds, VertexIds; ///< Of a piece.
 };
+
+/// Keeps of all models the faces of a piece.
+void TakePiece(std::vector<Model>& models, int piece, int pieces)
+{
+  std::vector<const nurbs::ModelBuilder*> builders;
+  for (const Model& model : models)
+  {
+    builders.push_back(&model.Builder);
+  }
+  const auto ranges = nurbs::DealModels(builders, piece, pieces);
+  for (std::size_t i = 0; i < models.size(); ++i)
+  {
+    Model& model = models[i];
+    const auto [first, last] = ranges[i];
+    nurbs::PieceBuilder part = nurbs::TakeFaces(model.Builder, first, last);
+    model.Builder = std::move(part.Model);
+    model.EdgeIds = std::move(part.EdgeIds);
+    model.VertexIds = std::move(part.VertexIds);
+    model.Errors = std::vector<double>(model.Errors.begin() + first, model.Errors.begin() + last);
+  }
+}
 
 /// A placed copy of a part, in the output's unit.
 void Append(
@@ -80,6 +104,10 @@ void Store(Model& model, const std::string& unit, bool colors, vtkUnstructuredGr
   {
     vtkNURBSModel::SetUnconvertedFaces(grid, model.Unconverted);
   }
+  if (!model.EdgeIds.empty())
+  {
+    vtkNURBSModel::SetGlobalIds(grid, model.EdgeIds, model.VertexIds);
+  }
 }
 
 void AddModel(
@@ -87,6 +115,7 @@ void AddModel(
 {
   const unsigned int index = output->GetNumberOfPartitionedDataSets();
   output->SetNumberOfPartitionedDataSets(index + 1);
+  output->SetNumberOfPartitions(index, 1);
   output->SetPartition(index, 0, grid);
   output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
@@ -181,6 +210,13 @@ int vtkNURBSCADReader::CanReadFile(const char* fileName)
   }
 }
 
+int vtkNURBSCADReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
 int vtkNURBSCADReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -242,14 +278,23 @@ int vtkNURBSCADReader::RequestData(
     nurbs::CADDocument::Instance& instance = document.Instances[i];
     Append(parts[instance.Part], instance, scale, models[this->SingleModel ? 0 : i]);
   }
+  int piece = 0;
+  int pieces = 1;
+  if (vtkNURBSPieces::IsPieceAsked(outputVector->GetInformationObject(0), piece, pieces))
+  {
+    TakePiece(models, piece, pieces);
+  }
   const std::vector<std::string> names = InstanceNames(document);
   for (std::size_t i = 0; i < count; ++i)
   {
     grids[i] = vtkSmartPointer<vtkUnstructuredGrid>::New();
     Store(models[i], unit, document.HasColors, grids[i]);
-    AddModel(output, grids[i], this->SingleModel ? document.Nodes.front().Name : names[i]);
-    for (const std::string& reason : models[i].Unconverted)
+    const bool none = pieces > 1 && grids[i]->GetNumberOfCells() == 0;
+    AddModel(output, none ? nullptr : grids[i].Get(),
+      this->SingleModel ? document.Nodes.front().Name : names[i]);
+    for (std::size_t k = 0; piece == 0 && k < models[i].Unconverted.size(); ++k)
     {
+      const std::string& reason = models[i].Unconverted[k];
       vtkWarningMacro("Face " << reason << " (not converted)");
     }
   }

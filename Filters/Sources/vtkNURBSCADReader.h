@@ -20,6 +20,11 @@
  * A file that can't be read gives one error, an ErrorCode that is not 0 and an empty output. A face that can't be converted is
  * named in a warning and in the field data `UnconvertedFaces`; the others are kept.
  *
+ * Asked for a piece, every process reads the file and keeps its share of the faces, which are dealt in
+ * order over all models by their estimated cost (nurbs::DealFaces). The output has the same models and
+ * the same assembly everywhere, with an empty partition where a process has no face of a model; FaceId
+ * does not depend on pieces, and a piece has EdgeGlobalId and VertexGlobalId (see vtkNURBSModel).
+ *
  * Reports progress and obeys AbortExecute.
  *
  * @sa vtkNURBSModel
@@ -46,6 +51,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What LengthUnit may be.
   enum LengthUnits
   {
     MILLIMETRES = 0,
@@ -94,6 +100,8 @@ protected:
   vtkNURBSCADReader();
   ~vtkNURBSCADReader() override;
 
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

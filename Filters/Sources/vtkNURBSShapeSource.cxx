@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSShapeSource.h"
 
+#include "PieceBuilder.h"
 #include "Shapes.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSPieces.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -88,6 +90,13 @@ void AddShape(vtkNURBSShapeSource* source, nurbs::ModelBuilder& builder)
 
 } // namespace
 
+int vtkNURBSShapeSource::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
 int vtkNURBSShapeSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -102,7 +111,17 @@ int vtkNURBSShapeSource::RequestData(
     vtkErrorMacro(<< "No " << ShapeNames[this->Shape] << " was made: " << error.what());
     return 0;
   }
-  vtkNURBSModel::Store(builder, output);
+  int piece = 0;
+  int pieces = 1;
+  if (!vtkNURBSPieces::IsPieceAsked(outputVector->GetInformationObject(0), piece, pieces))
+  {
+    vtkNURBSModel::Store(builder, output);
+    return 1;
+  }
+  const auto faces = nurbs::DealModels({ &builder }, piece, pieces).front();
+  nurbs::PieceBuilder part = nurbs::TakeFaces(builder, faces.first, faces.second);
+  vtkNURBSModel::Store(part.Model, output);
+  vtkNURBSModel::SetGlobalIds(output, part.EdgeIds, part.VertexIds);
   return 1;
 }
 

@@ -28,6 +28,9 @@
  * missile and spring are closed solids of rational Bezier patches after figures 7 to 9 of Ruan, Zhang
  * and Yong (2006).
  *
+ * Asked for a piece, it deals the faces in order by their estimated cost (nurbs::DealFaces); a piece
+ * has EdgeGlobalId and VertexGlobalId (see vtkNURBSModel).
+ *
  * A parameter out of its range is clamped; a tube radius that is not smaller than the ring's is an
  * error.
  */
@@ -198,6 +201,8 @@ protected:
   vtkNURBSShapeSource();
   ~vtkNURBSShapeSource() override;
 
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

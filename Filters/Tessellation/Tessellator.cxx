@@ -4,6 +4,7 @@
 #include "CompletedModel.h"
 #include "EdgeDiscretizer.h"
 #include "FaceTessellator.h"
+#include "PieceExchange.h"
 #include "SurfaceTree.h"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ public:
     this->States.resize(faces);
     this->Snaps.assign(faces, Vec2(0.0, 0.0));
     this->FindUses();
+    this->Exchange =
+      std::make_unique<PieceExchange>(this->Options.Pieces, this->Completed, this->Uses);
     this->CollapseEdges();
     this->OrderFaces();
 
@@ -52,14 +55,22 @@ public:
     {
       edges[e] = std::int64_t(e);
     }
-    std::vector<std::int64_t> todo = this->AllFaces();
+    std::vector<std::int64_t> todo;
+    for (const std::int64_t f : this->AllFaces())
+    {
+      if (!this->Exchange->IsGhost(f))
+      {
+        todo.push_back(f);
+      }
+    }
     this->Polylines.resize(this->Data.Edges.size());
     this->Extra.resize(this->Data.Edges.size());
-    for (int pass = 0; pass < MaximumPasses && !todo.empty() && !this->Aborted; ++pass)
+    bool unfinished = true;
+    for (int pass = 0; pass < MaximumPasses && unfinished; ++pass)
     {
       // Step 2: one polyline an edge. Step 3: every face between them.
       this->DiscretizeEdges(edges);
-      this->TriangulateFaces(todo, pass, edges);
+      unfinished = this->TriangulateFaces(todo, pass, edges);
     }
     this->CollectPolylines();
     this->Result.Aborted = this->Aborted;
@@ -109,7 +120,14 @@ private:
         shortest[e] = shortest[e] > 0.0 ? std::min(shortest[e], length) : length;
       }
     }
-    CollapseShortEdges(this->Completed, shortest);
+    if (this->Exchange->IsParallel())
+    {
+      CollapseShortEdges(this->Completed, shortest, this->Exchange->GetLoops());
+    }
+    else
+    {
+      CollapseShortEdges(this->Completed, shortest);
+    }
   }
 
   // Large surfaces are worked on by all threads at once, the others one a thread.
@@ -278,7 +296,7 @@ private:
         {
           const std::int64_t e = edges[k];
           const std::vector<EdgeUse>& uses = this->Uses[e];
-          if (uses.empty())
+          if (!this->Exchange->IsOwnEdge(uses))
           {
             continue;
           }
@@ -313,12 +331,15 @@ private:
   }
 
   // Triangulates the faces of `todo`; on return `todo` has those that must be done again, and
-  // `edges` the edges that must get more points first.
-  void TriangulateFaces(std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
+  // `edges` the edges that must get more points first. False: all are done, or it was aborted.
+  bool TriangulateFaces(std::vector<std::int64_t>& todo, int pass, std::vector<std::int64_t>& edges)
   {
     const bool last = pass + 1 == MaximumPasses;
-    std::vector<std::vector<SplitRequest>> requests(this->Data.Faces.size());
-    std::vector<std::vector<int>> weak(this->Data.Faces.size());
+    PassNews news;
+    news.Requests.resize(this->Data.Faces.size());
+    news.Weak.resize(this->Data.Faces.size());
+    std::vector<std::vector<SplitRequest>>& requests = news.Requests;
+    std::vector<std::vector<int>>& weak = news.Weak;
     this->ForFaces(todo, 0.5 + 0.4 * pass / MaximumPasses, 0.9,
       [&](std::int64_t f, const ParallelFor& parallel) {
         FaceJob job;
@@ -335,9 +356,12 @@ private:
         job.Parallel = parallel;
         this->Result.Meshes[f] = this->TryFace(job, requests[f], weak[f]);
       });
-    if (this->Aborted)
+    news.IsAborted = this->Aborted;
+    this->Exchange->Share(news, todo);
+    if (news.IsAborted)
     {
-      return;
+      this->Aborted = true;
+      return false;
     }
     std::vector<char> again(this->Data.Faces.size(), 0);
     std::vector<char> refine(this->Data.Edges.size(), 0);
@@ -352,7 +376,14 @@ private:
           again[use.Face] = 1;
         }
       }
-      again[f] = this->Judge(f, last, requests[f].empty(), weak[f]) || again[f];
+      if (!this->Exchange->IsGhost(f))
+      {
+        again[f] = this->Judge(f, last, requests[f].empty(), weak[f]) || again[f];
+      }
+      else if (!weak[f].empty() && !last && !this->Trees[f]->IsCapped())
+      {
+        this->Trees[f]->Refine(*this->Bounds[f], this->GoalOf(f), std::move(weak[f]));
+      }
     }
     edges.clear();
     for (std::size_t e = 0; e < refine.size(); ++e)
@@ -366,11 +397,12 @@ private:
     todo.clear();
     for (std::int64_t f : this->AllFaces())
     {
-      if (again[f])
+      if (again[f] && !this->Exchange->IsGhost(f))
       {
         todo.push_back(f);
       }
     }
+    return this->Exchange->IsParallel() ? news.IsUnfinished : !todo.empty();
   }
 
   // Looks at a finished face: true if it must be done again with a finer tree.
@@ -414,6 +446,10 @@ private:
   {
     for (std::size_t f = 0; f < this->Data.Faces.size(); ++f)
     {
+      if (this->Exchange->IsGhost(std::int64_t(f)))
+      {
+        continue;
+      }
       if (!this->IsUsable(std::int64_t(f)))
       {
         this->Result.Meshes[f].Status = FaceStatus::Failed;
@@ -453,6 +489,7 @@ private:
   CompletedModel Completed;
   const Model& Data;
   std::vector<std::vector<EdgeUse>> Uses;
+  std::unique_ptr<PieceExchange> Exchange;
   std::vector<std::int64_t> Large;
   std::vector<std::int64_t> Small;
   std::vector<std::unique_ptr<SurfaceBound>> Bounds;

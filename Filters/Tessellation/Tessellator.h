@@ -7,6 +7,7 @@
 #pragma once
 
 #include "Model.h"
+#include "PieceLinks.h"
 #include "TrimCurves.h"
 
 #include <atomic>
@@ -40,6 +41,7 @@ struct TessellatorOptions
   double MaximumEdgeLength = 0.0; ///< Model units; 0: no limit.
   double MaximumAngle = 0.0;      ///< Radians between the normals at a triangle's corners; 0: none.
   std::int64_t MaximumFaceTriangles = 4000000; ///< A face that would need more is capped.
+  const PieceLinks* Pieces = nullptr;          ///< If other processes have the rest of the model.
   ParallelFor Parallel = SerialFor;
   std::function<bool(double)> Progress; ///< Called with 0..1 (any thread); false: abort.
 };
@@ -87,6 +89,8 @@ struct TessellationResult
 ///
 /// @param model the faces, loops, trim curves and edges.
 /// @param faceErrors one string a face: "" or why it can't be used (it comes out as Failed).
+/// With Pieces, ghosts get no triangles, and own faces those that they get where one process has the
+/// whole model. All processes must call it, with the same options.
 /// Throws Error if the tolerance is not positive and finite.
 TessellationResult Tessellate(const Model& model, const std::vector<std::string>& faceErrors,
   const TessellatorOptions& options);

@@ -9,6 +9,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -255,19 +256,30 @@ void AddValue(vtkFieldData* field, const char* name, T value)
 void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh)
 {
   vtkFieldData* field = mesh->GetFieldData();
-  const vtkIdType faces = vtkIdType(range.LastMesh - range.FirstMesh);
+  std::vector<vtkIdType> told;
+  for (vtkIdType f = 0; f < vtkIdType(range.LastMesh - range.FirstMesh); ++f)
+  {
+    if (!range.IsGhost || !range.IsGhost[f])
+    {
+      told.push_back(f);
+    }
+  }
+  const auto faces = vtkIdType(told.size());
   auto ids = NewArray<vtkIdTypeArray>("FaceIds", 1, faces);
   auto errors = NewArray<vtkDoubleArray>("FaceCertifiedError", 1, faces);
   auto status = NewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
   auto messages = NewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
+  auto tolerances = NewArray<vtkDoubleArray>("FaceTolerance", 1, faces);
   double largest = 0.0;
-  for (vtkIdType f = 0; f < faces; ++f)
+  for (vtkIdType k = 0; k < faces; ++k)
   {
+    const vtkIdType f = told[k];
     const FaceMesh& face = range.Result->Meshes[range.FirstMesh + f];
-    ids->SetValue(f, vtkNURBSModel::GetFaceId(grid, f));
-    errors->SetValue(f, face.CertifiedError);
-    status->SetValue(f, static_cast<unsigned char>(face.Status));
-    messages->SetValue(f, face.Message);
+    ids->SetValue(k, vtkNURBSModel::GetFaceId(grid, f));
+    errors->SetValue(k, face.CertifiedError);
+    status->SetValue(k, static_cast<unsigned char>(face.Status));
+    messages->SetValue(k, face.Message);
+    tolerances->SetValue(k, range.FaceTolerances ? range.FaceTolerances[f] : range.Tolerance);
     largest = std::max(largest, face.CertifiedError);
   }
   field->AddArray(ids);
@@ -276,12 +288,10 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
   field->AddArray(messages);
   if (range.FaceTolerances)
   {
-    auto tolerances = NewArray<vtkDoubleArray>("FaceTolerance", 1, faces);
-    std::copy_n(range.FaceTolerances, faces, tolerances->GetPointer(0));
     field->AddArray(tolerances);
   }
-  AddValue<vtkDoubleArray>(field, "CertifiedError", largest);
   AddValue<vtkDoubleArray>(field, "Tolerance", range.Tolerance);
+  AddValue<vtkDoubleArray>(field, "CertifiedError", largest);
   AddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
 }
 
@@ -326,6 +336,7 @@ void vtkNURBSMeshOutput::FillLines(
   const vtkIdType count = vtkIdType(range.LastLine - range.FirstLine);
   auto edges = NewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);
   auto faces = NewArray<vtkTypeInt64Array>(vtkNURBSModel::FaceIdName(), 1, count);
+  auto owners = NewArray<vtkIdTypeArray>("Owners", 1, count);
   vtkNew<vtkIdTypeArray> starts;
   starts->SetNumberOfValues(count + 1);
   vtkIdType total = 0;
@@ -335,8 +346,8 @@ void vtkNURBSMeshOutput::FillLines(
     starts->SetValue(i, total);
     total += vtkIdType(line.Points.size());
     edges->SetValue(i, line.Edge < 0 ? -1 : line.Edge - firstEdge);
-    faces->SetValue(
-      i, vtkNURBSModel::GetFaceId(grid, vtkIdType(line.Face) - vtkIdType(range.FirstMesh)));
+    owners->SetValue(i, vtkIdType(line.Face) - vtkIdType(range.FirstMesh));
+    faces->SetValue(i, vtkNURBSModel::GetFaceId(grid, owners->GetValue(i)));
   }
   starts->SetValue(count, total);
   auto xyz = NewArray<vtkDoubleArray>("Points", 3, total);
@@ -363,4 +374,16 @@ void vtkNURBSMeshOutput::FillLines(
   lines->SetLines(cells);
   lines->GetCellData()->AddArray(edges);
   lines->GetCellData()->AddArray(faces);
+  vtkNURBSPieces::CopyOwners(grid, owners, lines->GetCellData());
+}
+
+double vtkNURBSMeshOutput::GetCertifiedError(vtkPolyData* mesh)
+{
+  return mesh->GetFieldData()->GetArray("CertifiedError")->GetTuple1(0);
+}
+
+void vtkNURBSMeshOutput::SetFigures(vtkPolyData* mesh, double certifiedError, vtkIdType triangles)
+{
+  AddValue<vtkDoubleArray>(mesh->GetFieldData(), "CertifiedError", certifiedError);
+  AddValue<vtkIdTypeArray>(mesh->GetFieldData(), "NumberOfTriangles", triangles);
 }

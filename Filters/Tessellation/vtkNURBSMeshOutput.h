@@ -7,6 +7,7 @@
 #define vtkNURBSMeshOutput_h
 
 #include "Tessellator.h"
+#include "vtkType.h"
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -22,6 +23,7 @@ struct Range
   std::size_t FirstLine = 0, LastLine = 0;
   double Tolerance = 0.0;                 ///< Told in the output's field data.
   const double* FaceTolerances = nullptr; ///< Likewise, from FirstMesh on; null: all the same.
+  const char* IsGhost = nullptr; ///< Meshes that are not told of, from FirstMesh on; null: none.
   bool MergePoints = false;
 };
 
@@ -33,6 +35,10 @@ void FillMesh(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh);
 /// 0.
 void FillLines(
   const Range& range, vtkUnstructuredGrid* grid, std::int64_t firstEdge, vtkPolyData* lines);
+
+/// What the field data of a mesh tell of the whole model.
+double GetCertifiedError(vtkPolyData* mesh);
+void SetFigures(vtkPolyData* mesh, double certifiedError, vtkIdType triangles);
 
 } // namespace vtkNURBSMeshOutput
 

@@ -11,6 +11,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -20,6 +21,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -57,6 +59,17 @@ const char* ModeName(int mode)
 // What one Update works on.
 struct vtkNURBSTessellator::Work
 {
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
+  vtkDataObject* Input = nullptr; ///< With faces of other processes beside the own ones.
+  nurbs::PieceLinks Links;
+
+  bool IsGhost(std::size_t face) const
+  {
+    return !this->Links.IsGhost.empty() && this->Links.IsGhost[face] != 0;
+  }
   vtkNURBSModelPool Pool;
   nurbs::TessellatorOptions Options;
   nurbs::TessellationResult Result;
@@ -96,10 +109,23 @@ int vtkNURBSTessellator::RequestDataObject(
 // The models of the input in one, with offset indices.
 bool vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
 {
-  const std::string problem = work.Pool.Collect(input);
+  std::string problem;
+  work.Input = work.Pieces.Gather(input, problem, vtkNURBSPieces::NEIGHBOURS);
+  problem = problem.empty() ? work.Pool.Collect(work.Input) : problem;
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem);
+  }
+  if (work.Pieces.IsParallel() && problem.empty())
+  {
+    const vtkNURBSPieces::Identity identity = work.Pieces.GetIdentity();
+    work.Links.IsGhost = identity.IsGhost;
+    work.Links.Faces = identity.Faces;
+    work.Links.Edges = identity.Edges;
+    work.Links.Vertices = identity.Vertices;
+    work.Links.Exchange = [&work](
+                            const std::vector<char>& own) { return work.Pieces.Exchange(own); };
+    work.Options.Pieces = &work.Links;
   }
   return problem.empty();
 }
@@ -135,7 +161,12 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   }
   const std::vector<nurbs::Box3> boxes =
     nurbs::FaceBoxes(work.Pool.Model, work.Pool.FaceErrors, vtkNURBSParallelFor);
-  const double diagonal = nurbs::Diagonal(boxes);
+  nurbs::Box3 all;
+  for (const nurbs::Box3& box : boxes)
+  {
+    all.extend(box);
+  }
+  const double diagonal = nurbs::Diagonal({ work.Pieces.Around(all) });
   options.Tolerance = (diagonal > 0.0 ? diagonal : 1.0) * this->Tolerance;
   if (this->ToleranceMode == RELATIVE)
   {
@@ -158,8 +189,9 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
 
 bool vtkNURBSTessellator::Tessellate(Work& work)
 {
-  const bool quick =
-    work.Pool.Model.Faces.size() <= QuickFaces && ControlPoints(work.Pool.Model) <= QuickPoints;
+  // Processes talk in this thread only: MPI need not know of others.
+  const bool quick = work.Pieces.IsParallel() ||
+    (work.Pool.Model.Faces.size() <= QuickFaces && ControlPoints(work.Pool.Model) <= QuickPoints);
   try
   {
     vtkNURBSRunWithProgress(
@@ -173,17 +205,22 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
     vtkErrorMacro("Tessellation failed: " << problem.what());
     return false;
   }
-  work.Result.Aborted = work.Result.Aborted || this->GetAbortExecute() != 0;
+  double aborted = work.Result.Aborted || this->GetAbortExecute() != 0 ? 1.0 : 0.0;
+  work.Pieces.Largest(&aborted, 1);
+  work.Result.Aborted = aborted > 0.0;
   return true;
 }
 
-void vtkNURBSTessellator::FillOutputs(
-  Work& work, vtkDataObject* input, vtkInformationVector* outputs)
+void vtkNURBSTessellator::FillOutputs(Work& work, vtkInformationVector* outputs)
 {
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(work.Input, vtkDataObject::GetData(outputs, port));
+  }
   const std::vector<vtkPolyData*> meshes =
-    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 0));
+    work.Pool.MakeLeaves(work.Input, vtkDataObject::GetData(outputs, 0));
   const std::vector<vtkPolyData*> lines =
-    work.Pool.MakeLeaves(input, vtkDataObject::GetData(outputs, 1));
+    work.Pool.MakeLeaves(work.Input, vtkDataObject::GetData(outputs, 1));
   std::size_t line = 0;
   for (std::size_t k = 0; k < work.Pool.Leaves.size(); ++k)
   {
@@ -203,11 +240,38 @@ void vtkNURBSTessellator::FillOutputs(
     range.FaceTolerances = work.Options.FaceTolerances.empty()
       ? nullptr
       : work.Options.FaceTolerances.data() + range.FirstMesh;
+    range.IsGhost =
+      work.Links.IsGhost.empty() ? nullptr : work.Links.IsGhost.data() + range.FirstMesh;
     range.MergePoints = this->MergePoints;
     vtkNURBSMeshOutput::FillMesh(range, leaf.Grid, meshes[k]);
     vtkNURBSMeshOutput::FillLines(range, leaf.Grid, leaf.FirstEdge, lines[k]);
     this->NumberOfTriangles += meshes[k]->GetNumberOfPolys();
     this->NumberOfPoints += meshes[k]->GetNumberOfPoints();
+  }
+  work.Pieces.Sum(&this->NumberOfTriangles, 1);
+  work.Pieces.Sum(&this->NumberOfPoints, 1);
+  if (work.Pieces.IsParallel())
+  {
+    this->TellWhole(work, meshes);
+  }
+}
+
+// What the field data tell of a model they tell of all processes' pieces of it.
+void vtkNURBSTessellator::TellWhole(Work& work, const std::vector<vtkPolyData*>& meshes) const
+{
+  const std::vector<unsigned int> blocks = work.Pieces.GetBlocks();
+  std::map<unsigned int, double> errors;
+  std::map<unsigned int, vtkIdType> triangles;
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+  {
+    errors[blocks[k]] = vtkNURBSMeshOutput::GetCertifiedError(meshes[k]);
+    triangles[blocks[k]] = meshes[k]->GetNumberOfPolys();
+  }
+  work.Pieces.Largest(errors);
+  work.Pieces.Sum(triangles);
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+  {
+    vtkNURBSMeshOutput::SetFigures(meshes[k], errors[blocks[k]], triangles[blocks[k]]);
   }
 }
 
@@ -215,12 +279,18 @@ void vtkNURBSTessellator::FillOutputs(
 void vtkNURBSTessellator::Summarize(const Work& work)
 {
   this->NumberOfFaces = vtkIdType(work.Result.Meshes.size());
-  this->ToleranceUsed = work.Options.FaceTolerances.empty() ? work.Options.Tolerance : 0.0;
+  this->ToleranceUsed = this->ToleranceMode == PIXELS ? 0.0 : work.Options.Tolerance;
   std::ostringstream named;
   int count = 0;
   std::size_t leaf = 0;
   for (std::size_t f = 0; f < work.Result.Meshes.size(); ++f)
   {
+    if (work.IsGhost(f))
+    {
+      --this->NumberOfFaces;
+      ++this->NumberOfGhostFaces;
+      continue;
+    }
     while (leaf + 1 < work.Pool.Leaves.size() && work.Pool.Leaves[leaf + 1].FirstFace <= f)
     {
       ++leaf;
@@ -252,14 +322,25 @@ void vtkNURBSTessellator::Summarize(const Work& work)
                            ? "\n  and " + std::to_string(count - MaxNamedFaces) + " more"
                            : ""));
   }
+  double* const largest[] = { &this->CertifiedError, &this->ToleranceUsed };
+  vtkIdType* const sums[] = { &this->NumberOfFaces, &this->NumberOfRepairedFaces,
+    &this->NumberOfCappedFaces, &this->NumberOfFailedFaces, &this->NumberOfGhostFaces };
+  for (double* value : largest)
+  {
+    work.Pieces.Largest(value, 1);
+  }
+  for (vtkIdType* value : sums)
+  {
+    work.Pieces.Sum(value, 1);
+  }
 }
 
 int vtkNURBSTessellator::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->NumberOfTriangles = this->NumberOfPoints = this->NumberOfFaces = 0;
-  this->NumberOfRepairedFaces = 0;
+  this->NumberOfRepairedFaces = this->NumberOfGhostFaces = 0;
   this->NumberOfCappedFaces = this->NumberOfFailedFaces = 0;
   this->CertifiedError = this->ToleranceUsed = this->TessellateSeconds = this->OutputSeconds = 0.0;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
@@ -268,7 +349,7 @@ int vtkNURBSTessellator::RequestData(
     vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
   const vtkNURBSParallelScope parallel;
-  Work work;
+  Work work(request, outputs);
   if (!this->CollectModels(input, work) || !this->FillOptions(work) || !this->Tessellate(work))
   {
     this->SetErrorCode(vtkErrorCode::UserError);
@@ -281,7 +362,9 @@ int vtkNURBSTessellator::RequestData(
     return 1;
   }
   this->Summarize(work);
-  this->FillOutputs(work, input, outputs);
+  this->FillOutputs(work, outputs);
+  work.Pieces.Keep(vtkDataObject::GetData(outputs, 0));
+  work.Pieces.Keep(vtkDataObject::GetData(outputs, 1));
   this->OutputSeconds = Now() - start - this->TessellateSeconds;
   this->UpdateProgress(1.0);
   return 1;
@@ -319,6 +402,7 @@ void vtkNURBSTessellator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfRepairedFaces: " << this->NumberOfRepairedFaces << "\n";
   os << indent << "NumberOfCappedFaces: " << this->NumberOfCappedFaces << "\n";
   os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "NumberOfGhostFaces: " << this->NumberOfGhostFaces << "\n";
   os << indent << "TessellateSeconds: " << this->TessellateSeconds << "\n";
   os << indent << "OutputSeconds: " << this->OutputSeconds << "\n";
 }

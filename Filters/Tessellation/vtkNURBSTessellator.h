@@ -44,7 +44,10 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkNURBSFiltersTessellationModule.h" // For export macro
 
+#include <vector> // For the meshes
+
 class vtkCamera;
+class vtkPolyData;
 
 class VTKNURBSFILTERSTESSELLATION_EXPORT vtkNURBSTessellator : public vtkDataObjectAlgorithm
 {
@@ -53,6 +56,7 @@ public:
   vtkTypeMacro(vtkNURBSTessellator, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,
@@ -118,6 +122,7 @@ public:
   vtkGetVector2Macro(ViewportSize, int);
   ///@}
 
+  /// What Method may be.
   enum Methods
   {
     KD_TREE = 0,
@@ -138,6 +143,7 @@ public:
   void SetMethodToBinary() { this->SetMethod(BINARY); }
   ///@}
 
+  /// What ErrorMode may be.
   enum ErrorModes
   {
     GUARANTEED = 0,
@@ -155,6 +161,7 @@ public:
   void SetErrorModeToEstimated() { this->SetErrorMode(ESTIMATED); }
   ///@}
 
+  /// What CurveSubdivision may be.
   enum CurveSubdivisions
   {
     MIDPOINT = 0,
@@ -172,6 +179,7 @@ public:
   void SetCurveSubdivisionToArbitrary() { this->SetCurveSubdivision(ARBITRARY); }
   ///@}
 
+  /// What CurveMeasure may be.
   enum CurveMeasures
   {
     LINE = 0,
@@ -265,7 +273,9 @@ public:
   /**
    * What the last Update made of all models together: triangles and their points; the largest
    * certified error and the tolerance (the largest of the faces' in PIXELS mode) in the unit of the
-   * points; faces by status; seconds of the tessellation and of filling the outputs. All are 0
+   * points; faces by status; seconds of the tessellation and of filling the outputs. Under MPI they
+   * are those of all processes but for the seconds, and NumberOfGhostFaces is how many faces processes
+   * had to know of each other. All are 0
    * before the first Update and after an error.
    */
   vtkGetMacro(NumberOfTriangles, vtkIdType);
@@ -276,6 +286,7 @@ public:
   vtkGetMacro(NumberOfRepairedFaces, vtkIdType);
   vtkGetMacro(NumberOfCappedFaces, vtkIdType);
   vtkGetMacro(NumberOfFailedFaces, vtkIdType);
+  vtkGetMacro(NumberOfGhostFaces, vtkIdType);
   vtkGetMacro(TessellateSeconds, double);
   vtkGetMacro(OutputSeconds, double);
   double GetSeconds() { return this->TessellateSeconds + this->OutputSeconds; }
@@ -304,7 +315,8 @@ private:
   bool CollectModels(vtkDataObject* input, Work& work);
   bool FillOptions(Work& work);
   bool Tessellate(Work& work);
-  void FillOutputs(Work& work, vtkDataObject* input, vtkInformationVector* outputs);
+  void FillOutputs(Work& work, vtkInformationVector* outputs);
+  void TellWhole(Work& work, const std::vector<vtkPolyData*>& meshes) const;
   void Summarize(const Work& work);
 
   int ToleranceMode = RELATIVE;
@@ -332,6 +344,7 @@ private:
   vtkIdType NumberOfRepairedFaces = 0;
   vtkIdType NumberOfCappedFaces = 0;
   vtkIdType NumberOfFailedFaces = 0;
+  vtkIdType NumberOfGhostFaces = 0;
   double TessellateSeconds = 0.0;
   double OutputSeconds = 0.0;
 };

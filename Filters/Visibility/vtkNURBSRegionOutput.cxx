@@ -22,6 +22,9 @@ void vtkNURBSRegionOutput::FillModel(const nurbs::VisibleRegions& result,
   const std::vector<std::int64_t> faces =
     nurbs::BuildRegions(result, std::int64_t(leaf.FirstFace), std::int64_t(leaf.LastFace), builder);
   vtkNURBSModel::Store(builder, output);
+  // Faces look as those of the input, or not at all.
+  output->GetCellData()->RemoveArray(vtkNURBSModel::ColorName());
+  output->GetCellData()->RemoveArray(vtkNURBSModel::NameName());
   vtkNew<vtkIdTypeArray> cells;
   vtkNew<vtkDoubleArray> areas;
   areas->SetName("VisibleArea");

@@ -9,6 +9,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -103,7 +104,7 @@ void vtkNURBSSilhouette::ClearResults()
 }
 
 int vtkNURBSSilhouette::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->ClearResults();
@@ -112,10 +113,13 @@ int vtkNURBSSilhouette::RequestData(
   vtkNURBSModelPool::CopyTree(input, output);
   const vtkNURBSParallelScope parallel;
   Work work;
+  vtkNURBSPieces pieces(request, outputs);
+  vtkDataObject* whole = input;
   try
   {
     std::string problem = this->CheckOptions();
-    problem = problem.empty() ? work.Pool.Collect(input) : problem;
+    whole = problem.empty() ? pieces.Gather(input, problem) : input;
+    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
     if (!problem.empty())
     {
       throw nurbs::Error(problem);
@@ -134,7 +138,8 @@ int vtkNURBSSilhouette::RequestData(
     return 1;
   }
   this->Summarize(work);
-  const std::vector<vtkPolyData*> leaves = work.Pool.MakeLeaves(input, output);
+  vtkNURBSModelPool::CopyTree(whole, output);
+  const std::vector<vtkPolyData*> leaves = work.Pool.MakeLeaves(whole, output);
   for (std::size_t k = 0; k < leaves.size(); ++k)
   {
     const vtkNURBSModelPool::Leaf& leaf = work.Pool.Leaves[k];
@@ -147,6 +152,7 @@ int vtkNURBSSilhouette::RequestData(
     this->NumberOfLines += leaves[k]->GetNumberOfLines();
     this->NumberOfPoints += leaves[k]->GetNumberOfPoints();
   }
+  pieces.Keep(output);
   this->Seconds = Now() - start;
   this->UpdateProgress(1.0);
   return 1;

@@ -8,6 +8,7 @@
 #include "vtkMath.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkNURBSRegionOutput.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -149,6 +150,10 @@ void vtkNURBSVisibleRegions::FillOutputs(
   choice.Kinds[4] = this->Intersections;
   choice.Hidden = this->HiddenLines;
   choice.Project = this->ProjectLines;
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
+  }
   const auto grids =
     work.Pool.MakeLeaves<vtkUnstructuredGrid>(input, vtkDataObject::GetData(outputs, 0));
   const auto lines = work.Pool.MakeLeaves<vtkPolyData>(input, vtkDataObject::GetData(outputs, 1));
@@ -166,7 +171,7 @@ void vtkNURBSVisibleRegions::FillOutputs(
 }
 
 int vtkNURBSVisibleRegions::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->ClearResults();
@@ -177,10 +182,12 @@ int vtkNURBSVisibleRegions::RequestData(
   }
   const vtkNURBSParallelScope parallel;
   Work work;
+  vtkNURBSPieces pieces(request, outputs);
   try
   {
     std::string problem = this->CheckOptions();
-    problem = problem.empty() ? work.Pool.Collect(input) : problem;
+    vtkDataObject* whole = problem.empty() ? pieces.Gather(input, problem) : input;
+    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
     if (!problem.empty())
     {
       throw nurbs::Error(problem);
@@ -189,7 +196,9 @@ int vtkNURBSVisibleRegions::RequestData(
     if (!work.Result.Aborted && !this->GetAbortExecute())
     {
       this->Summarize(work);
-      this->FillOutputs(work, input, outputs);
+      this->FillOutputs(work, whole, outputs);
+      pieces.Keep(vtkDataObject::GetData(outputs, 0));
+      pieces.Keep(vtkDataObject::GetData(outputs, 1));
       this->Seconds = Now() - start;
       this->UpdateProgress(1.0);
     }

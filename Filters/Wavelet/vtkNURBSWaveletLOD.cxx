@@ -8,6 +8,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelPool.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNURBSPieces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -36,6 +37,11 @@ double Now()
 // What is kept from one Update to the next, and what it was made with.
 struct vtkNURBSWaveletLOD::Pyramids
 {
+  Pyramids(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
+  vtkDataObject* Input = nullptr; ///< Of all processes; owned by Pieces or by whom it came from.
   vtkNURBSModelPool Pool;
   double Diagonal = 1.0;
   nurbs::WaveletOptions Options;
@@ -64,7 +70,8 @@ int vtkNURBSWaveletLOD::RequestDataObject(
   return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
 }
 
-bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
+bool vtkNURBSWaveletLOD::Analyse(
+  vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs)
 {
   if (!(this->FinestTolerance > 0.0) || !std::isfinite(this->FinestTolerance))
   {
@@ -80,8 +87,9 @@ bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
   const auto scale = [&](const Pyramids& pyramids) {
     return this->ToleranceMode == RELATIVE ? pyramids.Diagonal : 1.0;
   };
-  if (this->Kept && this->Kept->Pool.IsUpToDate(input) &&
-    this->Kept->Options.Kind == options.Kind &&
+  auto work = std::make_unique<Pyramids>(request, outputs);
+  if (this->Kept && this->Kept->Pieces.IsParallel() == work->Pieces.IsParallel() &&
+    this->Kept->Pieces.IsUpToDate(input) && this->Kept->Options.Kind == options.Kind &&
     this->Kept->Options.Finest.MaximumSamples == options.Finest.MaximumSamples &&
     this->Kept->Options.Finest.Tolerance == scale(*this->Kept) * this->FinestTolerance)
   {
@@ -89,8 +97,9 @@ bool vtkNURBSWaveletLOD::Analyse(vtkDataObject* input)
   }
   const double start = Now();
   this->Kept.reset();
-  auto work = std::make_unique<Pyramids>();
-  const std::string problem = work->Pool.Collect(input);
+  std::string problem;
+  work->Input = work->Pieces.Gather(input, problem);
+  problem = problem.empty() ? work->Pool.Collect(work->Input) : problem;
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem);
@@ -136,10 +145,11 @@ bool vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
   return true;
 }
 
-void vtkNURBSWaveletLOD::FillOutputs(Meshes& meshes, vtkDataObject* input, vtkDataObject* output)
+void vtkNURBSWaveletLOD::FillOutputs(Meshes& meshes, vtkDataObject* output)
 {
   const vtkNURBSModelPool& pool = this->Kept->Pool;
-  const std::vector<vtkPolyData*> leaves = pool.MakeLeaves(input, output);
+  vtkNURBSModelPool::CopyTree(this->Kept->Input, output);
+  const std::vector<vtkPolyData*> leaves = pool.MakeLeaves(this->Kept->Input, output);
   for (std::size_t k = 0; k < pool.Leaves.size(); ++k)
   {
     vtkNURBSLevelOutput::Range range;
@@ -151,6 +161,7 @@ void vtkNURBSWaveletLOD::FillOutputs(Meshes& meshes, vtkDataObject* input, vtkDa
     this->NumberOfTriangles += leaves[k]->GetNumberOfPolys();
     this->NumberOfPoints += leaves[k]->GetNumberOfPoints();
   }
+  this->Kept->Pieces.Keep(output);
 }
 
 // Counts the faces by status and names those that were not done in one warning.
@@ -201,7 +212,7 @@ void vtkNURBSWaveletLOD::ClearResults()
 }
 
 int vtkNURBSWaveletLOD::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->ClearResults();
@@ -212,7 +223,7 @@ int vtkNURBSWaveletLOD::RequestData(
   Meshes meshes;
   try
   {
-    if (!this->Analyse(input))
+    if (!this->Analyse(input, request, outputs))
     {
       this->SetErrorCode(vtkErrorCode::UserError);
       return 0;
@@ -245,7 +256,7 @@ int vtkNURBSWaveletLOD::RequestData(
     vtkWarningMacro("The coarsest meshes have more than " << this->TriangleBudget << " triangles");
   }
   this->Summarize(meshes);
-  this->FillOutputs(meshes, input, output);
+  this->FillOutputs(meshes, output);
   this->MeshSeconds = Now() - start - this->AnalyseSeconds;
   this->UpdateProgress(1.0);
   return 1;

@@ -28,6 +28,7 @@ set(nurbs_vtk_components
   IOXML
   InteractionStyle
   InteractionWidgets
+  ParallelCore
   RenderingAnnotation
   RenderingCore
   RenderingFreeType

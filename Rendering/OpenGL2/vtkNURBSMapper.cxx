@@ -626,6 +626,7 @@ void vtkNURBSMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetInteractiveFrameRate(mapper->GetInteractiveFrameRate());
     this->SetLook(mapper->GetLook());
     this->SetLookTable(mapper->GetLookTable());
+    this->SetLookLength(mapper->GetLookLength());
     this->SetLookDirection(mapper->GetLookDirection());
     this->SetNumberOfStripes(mapper->GetNumberOfStripes());
     this->SetNumberOfIsoLines(mapper->GetNumberOfIsoLines());
@@ -645,6 +646,7 @@ void vtkNURBSMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "InteractiveFrameRate: " << this->InteractiveFrameRate << "\n"
      << indent << "Look: " << this->Look << "\n"
      << indent << "LookTable: " << this->LookTable.Get() << "\n"
+     << indent << "LookLength: " << this->LookLength << "\n"
      << indent << "LookDirection: " << this->LookDirection[0] << " " << this->LookDirection[1]
      << " " << this->LookDirection[2] << "\n"
      << indent << "NumberOfStripes: " << this->NumberOfStripes << "\n"

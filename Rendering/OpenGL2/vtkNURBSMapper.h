@@ -150,6 +150,15 @@ public:
 
   ///@{
   /**
+   * The length that takes the place of the bounds' diagonal there: that of the whole model, if other
+   * processes draw the rest of it. Default 0: the diagonal.
+   */
+  vtkSetClampMacro(LookLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(LookLength, double);
+  ///@}
+
+  ///@{
+  /**
    * Direction of draft, isophotes' light and the zebra's stripes, in the model's axes; of any length
    * but 0. Default (0, 0, 1).
    */
@@ -248,6 +257,7 @@ protected:
   double InteractiveFrameRate = 15.0;
   int Look = PLAIN;
   vtkSmartPointer<vtkScalarsToColors> LookTable;
+  double LookLength = 0.0;
   double LookDirection[3] = { 0.0, 0.0, 1.0 };
   int NumberOfStripes = 18;
   int NumberOfIsoLines[2] = { 0, 0 };

@@ -232,7 +232,8 @@ void vtkNURBSMapper::SetLookParameters(
   vtkNew<vtkColorTransferFunction> standard;
   if (!table)
   {
-    const double diagonal = c.Model.GetBounds().diagonal().norm();
+    const double diagonal =
+      this->LookLength > 0.0 ? this->LookLength : c.Model.GetBounds().diagonal().norm();
     const double limit = this->Look == DRAFT_ANGLE ? 90.0
       : this->Look == GAUSSIAN_CURVATURE           ? 100.0 / (diagonal * diagonal)
                                                    : 10.0 / diagonal;

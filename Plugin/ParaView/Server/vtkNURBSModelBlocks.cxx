@@ -6,12 +6,50 @@
 #include "vtkInformation.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkMultiPieceDataSet.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkNURBSModelBlocks);
+
+namespace
+{
+
+// Gives each process a place of its own in every block. ParaView puts the pieces of a block together as
+// grids where a client draws them, which models are more than.
+void SeatPieces(vtkMultiBlockDataSet* blocks, unsigned int rank, unsigned int processes)
+{
+  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    vtkDataObject* block = blocks->GetBlock(i);
+    if (auto* inner = vtkMultiBlockDataSet::SafeDownCast(block))
+    {
+      SeatPieces(inner, rank, processes);
+      continue;
+    }
+    vtkNew<vtkMultiPieceDataSet> seats;
+    auto* parts = vtkPartitionedDataSet::SafeDownCast(block);
+    const unsigned int count = parts ? std::max(1u, parts->GetNumberOfPartitions()) : 1u;
+    seats->SetNumberOfPartitions(processes * count);
+    for (unsigned int k = 0; k < count; ++k)
+    {
+      vtkDataObject* piece = block;
+      if (parts)
+      {
+        piece = k < parts->GetNumberOfPartitions() ? parts->GetPartitionAsDataObject(k) : nullptr;
+      }
+      seats->SetPartition(rank + k * processes, piece);
+    }
+    blocks->SetBlock(i, seats);
+  }
+}
+
+} // namespace
 
 vtkDataObject* vtkNURBSModelBlocks::GetDrawn(vtkDataObject* output)
 {
@@ -58,6 +96,12 @@ int vtkNURBSModelBlocks::RequestData(
     vtkNew<vtkIntArray> mark;
     mark->SetName(SingleBlock());
     output->GetFieldData()->AddArray(mark);
+  }
+  // Representations update us for what they have, without a word of pieces.
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  if (all && all->GetNumberOfProcesses() > 1)
+  {
+    SeatPieces(output, unsigned(all->GetLocalProcessId()), unsigned(all->GetNumberOfProcesses()));
   }
   return 1;
 }

@@ -3,13 +3,16 @@
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkCommunicator.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNURBSMapper.h"
 #include "vtkNURBSModelBlocks.h"
 #include "vtkNew.h"
@@ -29,6 +32,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -89,6 +93,30 @@ void SetLeaves(vtkDataObject* block, const Style& around, Attributes* given, Att
   {
     leaves->SetBlockColor(block, style.Color->data());
   }
+}
+
+// The diagonal of the box around what all processes have; 0: nothing, or there are no others.
+double LengthOfAll(const double (&bounds)[6])
+{
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  if (!all || all->GetNumberOfProcesses() < 2)
+  {
+    return 0.0;
+  }
+  const bool some = vtkMath::AreBoundsInitialized(bounds);
+  double own[6], largest[6];
+  for (int k = 0; k < 6; ++k)
+  {
+    own[k] = some ? (k % 2 ? bounds[k] : -bounds[k]) : VTK_DOUBLE_MIN;
+  }
+  all->AllReduce(own, largest, 6, vtkCommunicator::MAX_OP);
+  double squares = 0.0;
+  for (int k = 0; k < 6; k += 2)
+  {
+    const double side = largest[k] + largest[k + 1];
+    squares += side >= 0.0 ? side * side : 0.0;
+  }
+  return std::sqrt(squares);
 }
 
 // Where the data of a connection come from, without the filters that ParaView puts behind each output.
@@ -235,6 +263,7 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     vtkNew<vtkMatrix4x4> matrix;
     this->Actor->GetMatrix(matrix);
     vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+    this->GetNURBSMapper()->SetLookLength(LengthOfAll(bounds));
     if (!this->IsApart())
     {
       this->ShowSelectedFaces();

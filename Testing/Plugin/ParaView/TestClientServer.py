@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pvserver of its own: models travel to the client and are drawn there, or on the server."""
+"""A pvserver of its own: models travel to the client and are drawn there, or on the server.
+
+Run as `pvpython TestClientServer.py PLUGIN FOLDER SERVER`; SERVER is a command line, pvserver, or mpirun
+and pvserver.
+"""
+import os
 import socket
 import subprocess
 import sys
@@ -28,8 +33,11 @@ with socket.socket() as free:
     free.bind(("localhost", 0))
     port = free.getsockname()[1]
 # It ends with the client's connection, at the end of this script.
+# pvpython is a process of MPI itself, and tells so to what it starts; mpirun is to start anew.
+alone = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "OPAL_"))}
 server = subprocess.Popen(
-    ["timeout", "100", sys.argv[3], "--server-port=%d" % port],
+    ["timeout", "100"] + sys.argv[3].split() + ["--server-port=%d" % port],
+    env=alone,
     stdout=subprocess.PIPE,
     universal_newlines=True,
 )
@@ -67,17 +75,21 @@ try:
     print("drawn by the client and by the server: %d pixels differ" % differ)
     assert differ < 20
 
-    # A selected face has its colour, whoever draws, and loses it.
-    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-    there = selected("remote-selected-there.png")
-    view.RemoteRenderThreshold = 1000.0
-    here = selected("remote-selected-here.png")
-    print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
-    assert there.sum() > 800 and (here != there).sum() < 20
-    simple.ClearSelection(reader)
-    assert not selected("remote-unselected.png").any()
-    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-    assert (selected("remote-again.png") != here).sum() < 20
+    # A selected face has its colour, whoever draws, and loses it; not yet where several processes
+    # serve (Documentation/Guide/Parallel.md, Limits).
+    if "mpirun" in sys.argv[3]:
+        print("selected faces are not looked at: several processes do not colour them")
+    else:
+        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+        there = selected("remote-selected-there.png")
+        view.RemoteRenderThreshold = 1000.0
+        here = selected("remote-selected-here.png")
+        print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
+        assert there.sum() > 800 and (here != there).sum() < 20
+        simple.ClearSelection(reader)
+        assert not selected("remote-unselected.png").any()
+        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+        assert (selected("remote-again.png") != here).sum() < 20
     sizes = [p.GetDataInformation().GetMemorySize() for p in (reader, mesh)]
     print("%d KiB as surfaces, %d KiB as triangles within 1e-4" % tuple(sizes))
     assert sizes[0] < sizes[1]

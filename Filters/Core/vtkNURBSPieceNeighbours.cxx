@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which faces processes must know of each other, and messages between two.
+#include "ModelChecks.h"
+#include "PieceMessage.h"
+#include "vtkNURBSModel.h"
+#include "vtkNURBSModelView.h"
+#include "vtkNURBSPieceTree.h"
+#include "vtkNURBSPieces.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace
+{
+
+using nurbs::MessageReader;
+using nurbs::MessageWriter;
+
+constexpr int MessageTag = 7181;
+constexpr vtkIdType LargestMessage = vtkIdType(1) << 30;
+
+/// A block's edge or vertex as one number.
+std::int64_t Key(unsigned int block, std::int64_t id, bool isVertex)
+{
+  return (std::int64_t(block) << 41) + 2 * id + (isVertex ? 1 : 0);
+}
+
+/// Calls f(edge) for the edges of a face, and f(vertex, true) for their ends.
+template <typename F>
+void ForEdges(const vtkNURBSModelView::Raw& raw, vtkIdType face, F f)
+{
+  const nurbs::ModelArrays& a = raw.Arrays;
+  const auto at = [](const nurbs::ModelArrays::Integers& values, std::int64_t index) {
+    return index >= 0 && index < std::int64_t(values.size()) ? values[index] : -1;
+  };
+  const std::int64_t loops = at(a.LoopCount, face);
+  const std::int64_t firstLoop = at(a.LoopStart, face);
+  for (std::int64_t l = firstLoop; l < firstLoop + loops; ++l)
+  {
+    const std::int64_t first = at(a.LoopCurveStart, l);
+    for (std::int64_t c = first; c < first + at(a.LoopCurveCount, l); ++c)
+    {
+      const std::int64_t edge = at(a.TrimCurveEdgeId, c);
+      f(at(raw.EdgeIds, edge), false);
+      for (int end = 0; edge >= 0 && end < 2; ++end)
+      {
+        f(at(raw.VertexIds, at(a.EdgeVertices, 2 * edge + end)), true);
+      }
+    }
+  }
+}
+
+} // namespace
+
+// The keys of all edges and vertices of each grid, sorted.
+std::vector<std::vector<std::int64_t>> vtkNURBSPieces::FindKeys(const Raws& raws) const
+{
+  std::vector<std::vector<std::int64_t>> keys(raws.size());
+  for (std::size_t g = 0; g < raws.size(); ++g)
+  {
+    const unsigned int block = this->Grids[g].Block;
+    for (vtkIdType face = 0; face < this->Grids[g].Data->GetNumberOfCells(); ++face)
+    {
+      ForEdges(raws[g], face, [&](std::int64_t id, bool isVertex) {
+        if (id >= 0)
+        {
+          keys[g].push_back(Key(block, id, isVertex));
+        }
+      });
+    }
+    std::sort(keys[g].begin(), keys[g].end());
+    keys[g].erase(std::unique(keys[g].begin(), keys[g].end()), keys[g].end());
+  }
+  return keys;
+}
+
+// Of every process, the own cells that it must know; all of them for this one. Boxes are exchanged, too.
+std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
+  const Raws& raws, std::string& problem)
+{
+  std::vector<std::int64_t> own;
+  for (const std::vector<std::int64_t>& some : this->FindKeys(raws))
+  {
+    own.insert(own.end(), some.begin(), some.end());
+  }
+  nurbs::AssembleOptions options;
+  options.CheckEdges = false;
+  std::map<unsigned int, double> sides[6];
+  for (std::size_t g = 0; g < raws.size(); ++g)
+  {
+    const nurbs::Box3 box =
+      nurbs::BoxOfNets(vtkNURBSModelView(this->Grids[g].Data, options).GetModel());
+    for (int k = 0; k < 6 && !box.isEmpty(); ++k)
+    {
+      const double side = k < 3 ? -box.min()[k] : box.max()[k - 3];
+      const auto known = sides[k].emplace(this->Grids[g].Block, side);
+      known.first->second = std::max(known.first->second, side);
+    }
+  }
+  for (std::map<unsigned int, double>& side : sides)
+  {
+    this->Largest(side);
+  }
+  for (const auto& entry : sides[0])
+  {
+    nurbs::Vec3 low, high;
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = -sides[k].at(entry.first);
+      high[k] = sides[k + 3].at(entry.first);
+    }
+    this->Boxes[entry.first] = nurbs::Box3(low, high);
+  }
+
+  std::vector<char> message;
+  MessageWriter out(message);
+  out.Put(problem);
+  out.Put(own);
+  const std::vector<std::vector<char>> all = this->Exchange(message);
+  std::unordered_map<std::int64_t, std::vector<int>> known; // Which others have an own key.
+  for (const std::int64_t key : own)
+  {
+    known.emplace(key, std::vector<int>());
+  }
+  for (int rank = 0; rank < int(all.size()); ++rank)
+  {
+    MessageReader in(all[rank]);
+    std::string said;
+    std::vector<std::int64_t> keys;
+    in.Get(said);
+    in.Get(keys);
+    problem = problem.empty() ? said : problem;
+    for (std::size_t k = 0; rank != this->Rank && k < keys.size(); ++k)
+    {
+      const auto found = known.find(keys[k]);
+      if (found != known.end() && (found->second.empty() || found->second.back() != rank))
+      {
+        found->second.push_back(rank);
+      }
+    }
+  }
+  std::vector<Choice> shared(all.size(), Choice(raws.size()));
+  if (!problem.empty())
+  {
+    return shared;
+  }
+  shared[this->Rank] = this->AllCells();
+  for (std::size_t g = 0; g < raws.size(); ++g)
+  {
+    for (vtkIdType face = 0; face < this->Grids[g].Data->GetNumberOfCells(); ++face)
+    {
+      ForEdges(raws[g], face, [&](std::int64_t id, bool isVertex) {
+        const auto found =
+          id < 0 ? known.end() : known.find(Key(this->Grids[g].Block, id, isVertex));
+        for (std::size_t k = 0; found != known.end() && k < found->second.size(); ++k)
+        {
+          std::vector<vtkIdType>& cells = shared[found->second[k]][g];
+          if (cells.empty() || cells.back() != face)
+          {
+            cells.push_back(face);
+          }
+        }
+      });
+    }
+  }
+  return shared;
+}
+
+// In rounds, in each of which a process talks to one other at most; the lower rank speaks first. Who has
+// nothing to say to another hears nothing from it either, as both know what they share.
+std::vector<std::vector<char>> vtkNURBSPieces::ExchangeWithEach(
+  const std::vector<std::vector<char>>& messages) const
+{
+  const int ranks = int(messages.size());
+  const int seats = ranks + ranks % 2;
+  std::vector<std::vector<char>> heard(ranks);
+  heard[this->Rank] = messages[this->Rank];
+  const auto send = [&](int to) {
+    const std::vector<char>& message = messages[to];
+    auto size = vtkIdType(message.size());
+    this->Controller->Send(&size, 1, to, MessageTag);
+    for (vtkIdType at = 0; at < size; at += LargestMessage)
+    {
+      this->Controller->Send(
+        message.data() + at, std::min(LargestMessage, size - at), to, MessageTag + 1);
+    }
+  };
+  const auto receive = [&](int from) {
+    vtkIdType size = 0;
+    this->Controller->Receive(&size, 1, from, MessageTag);
+    heard[from].resize(std::size_t(size));
+    for (vtkIdType at = 0; at < size; at += LargestMessage)
+    {
+      this->Controller->Receive(
+        heard[from].data() + at, std::min(LargestMessage, size - at), from, MessageTag + 1);
+    }
+  };
+  for (int round = 0; round < seats - 1; ++round)
+  {
+    // All but the last seat walk around; the last one meets who would meet himself.
+    const int last = seats - 1;
+    int other = (2 * round - this->Rank + 2 * last) % last;
+    const int middle = round % last;
+    if (this->Rank == last)
+    {
+      other = middle;
+    }
+    else if (this->Rank == middle)
+    {
+      other = last;
+    }
+    if (other >= ranks || messages[other].empty())
+    {
+      continue;
+    }
+    if (this->Rank < other)
+    {
+      send(other);
+      receive(other);
+    }
+    else
+    {
+      receive(other);
+      send(other);
+    }
+  }
+  return heard;
+}
+
+vtkNURBSPieces::Identity vtkNURBSPieces::GetIdentity() const
+{
+  Identity out;
+  vtkNURBSPieceTree::Visit(this->Whole, [&](unsigned int block, unsigned int, vtkDataObject* leaf) {
+    vtkFieldData* cells = leaf->GetAttributes(vtkDataObject::CELL);
+    vtkDataArray* owners = cells->GetArray(vtkNURBSPieceTree::OwnerName());
+    vtkDataArray* numbers = cells->GetArray(vtkNURBSPieceTree::CellName());
+    for (vtkIdType k = 0; owners && k < owners->GetNumberOfTuples(); ++k)
+    {
+      const auto owner = int(owners->GetTuple1(k));
+      out.IsGhost.push_back(owner != this->Rank);
+      out.Faces.push_back(
+        { (std::int64_t(owner) << 32) + block, std::int64_t(numbers->GetTuple1(k)) });
+    }
+    for (const std::int64_t id : this->EdgeIds.at(block))
+    {
+      out.Edges.push_back(Key(block, id, false));
+    }
+    for (const std::int64_t id : this->VertexIds.at(block))
+    {
+      out.Vertices.push_back(Key(block, id, true));
+    }
+  });
+  return out;
+}
+
+std::vector<unsigned int> vtkNURBSPieces::GetBlocks() const
+{
+  std::vector<unsigned int> blocks;
+  vtkNURBSPieceTree::Visit(this->Whole ? this->Whole.Get() : this->Input,
+    [&](unsigned int block, unsigned int, vtkDataObject* leaf) {
+      auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
+      if (grid && grid->GetNumberOfCells() > 0)
+      {
+        blocks.push_back(block);
+      }
+    });
+  return blocks;
+}
+
+namespace
+{
+
+/// Numbers by block of all processes, put together by `join`.
+template <typename T, typename F>
+void Join(const vtkNURBSPieces& pieces, std::map<unsigned int, T>& values, F join)
+{
+  std::vector<std::int64_t> blocks;
+  std::vector<T> numbers;
+  for (const auto& [block, value] : values)
+  {
+    blocks.push_back(block);
+    numbers.push_back(value);
+  }
+  std::vector<char> message;
+  MessageWriter out(message);
+  out.Put(blocks);
+  out.Put(numbers);
+  values.clear();
+  for (const std::vector<char>& one : pieces.Exchange(message))
+  {
+    MessageReader in(one);
+    in.Get(blocks);
+    in.Get(numbers);
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+    {
+      const auto added = values.emplace(unsigned(blocks[k]), numbers[k]);
+      if (!added.second)
+      {
+        added.first->second = join(added.first->second, numbers[k]);
+      }
+    }
+  }
+}
+
+} // namespace
+
+void vtkNURBSPieces::Largest(std::map<unsigned int, double>& values) const
+{
+  Join(*this, values, [](double a, double b) { return std::max(a, b); });
+}
+
+void vtkNURBSPieces::Sum(std::map<unsigned int, vtkIdType>& values) const
+{
+  Join(*this, values, [](vtkIdType a, vtkIdType b) { return a + b; });
+}
