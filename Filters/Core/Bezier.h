@@ -48,6 +48,7 @@ struct BezierCurve
   double T0 = 0.0; ///< Parameter of the first point on the curve that the piece was cut from.
   double T1 = 1.0; ///< Parameter of the last one.
   std::vector<Vec<D + 1>> Points; ///< (w x, ..., w).
+  /// One less than the number of points.
   int Degree() const { return static_cast<int>(this->Points.size()) - 1; }
   /// Cartesian point at the piece's own parameter s in [0, 1].
   Vec<D> Evaluate(double s) const

@@ -22,6 +22,7 @@ struct BoxRay
   Vec3 Inverse; ///< 1 / direction, finite: components that vanish are replaced by tiny ones.
   int Near[3];  ///< 1 where the direction is negative: the near slab is the upper one.
 
+  /// The direction need not have unit length.
   BoxRay(const Vec3& origin, const Vec3& direction)
     : Origin(origin)
   {
@@ -34,6 +35,7 @@ struct BoxRay
   }
 };
 
+/// A tree of boxes that rays and searches walk through.
 class BoxTree
 {
 public:
@@ -41,6 +43,7 @@ public:
   /// covers the rounding of the slab test where a box is flat. Empty boxes are not allowed.
   void Build(const std::vector<Box3>& boxes, double margin);
 
+  /// True if there are no boxes.
   bool IsEmpty() const { return this->Count == 0; }
 
   /// Calls `visit(box)` for every box that the ray meets between tMin and tMax, about from near to

@@ -25,8 +25,11 @@ struct CurveView
 
   /// Where the curve is defined.
   Interval Domain() const { return nurbs::Domain(this->Knots, this->Degree); }
+  /// A control point, Cartesian.
   Vec<D> Point(int i) const { return Eigen::Map<const Vec<D>>(this->Points + i * (D + 1)); }
+  /// Its weight.
   double Weight(int i) const { return this->Points[i * (D + 1) + D]; }
+  /// Both: (w x, ..., w).
   Vec<D + 1> Homogeneous(int i) const
   {
     Vec<D + 1> h;

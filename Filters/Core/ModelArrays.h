@@ -20,7 +20,9 @@ namespace nurbs
 /// 64 bits wide here, whatever they are in the file.
 struct ModelArrays
 {
+  /// Indices and counts.
   using Integers = ArrayView<std::int64_t>;
+  /// Coordinates, weights and knots.
   using Reals = ArrayView<double>;
 
   Reals Points;          ///< xyz triples, Cartesian.
@@ -66,6 +68,7 @@ struct ModelArrays
 /// Something wrong with a model.
 struct ModelProblem
 {
+  /// How bad it is.
   enum class Level
   {
     Warning, ///< The face is usable; a kernel may repair it.
@@ -82,7 +85,9 @@ struct AssembledModel
   AssembledModel() = default;
   AssembledModel(const AssembledModel&) = delete;
   AssembledModel& operator=(const AssembledModel&) = delete;
+  /// Views move with what they point to.
   AssembledModel(AssembledModel&&) = default;
+  /// Likewise.
   AssembledModel& operator=(AssembledModel&&) = default;
 
   /// As many faces, loops, trim curves, edges and vertices as the arrays have, same indices. A face

@@ -66,7 +66,9 @@ public:
   /// Removes the current face with its loops and trim curves (not its edges).
   void DropFace();
 
+  /// Faces so far.
   std::int64_t FaceCount() const;
+  /// Edges so far.
   std::int64_t EdgeCount() const;
 
   /// Views of what was built; valid until the next change.
@@ -78,7 +80,9 @@ public:
   /// The arrays themselves, see ModelArrays for their meaning.
   struct Storage
   {
+    /// Indices and counts.
     using Integers = std::vector<std::int64_t>;
+    /// Coordinates, weights and knots.
     using Reals = std::vector<double>;
     Reals Points, Weights; ///< Weights stay empty until the first rational face.
     Integers Connectivity, Offsets{ 0 };

@@ -11,6 +11,7 @@
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(NURBS_SANITIZE)
 #define NURBS_MULTIVERSION \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+/// 1 where NURBS_MULTIVERSION makes clones, else 0.
 #define NURBS_HAS_CLONES 1
 #else
 #define NURBS_MULTIVERSION

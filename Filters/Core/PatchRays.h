@@ -41,6 +41,7 @@ struct RayPlanes
   Vec3 Normal[2];      ///< Unit normals of the planes, orthogonal to each other.
   Vec4 Homogeneous[2]; ///< Normal and offset: positive on the side that the normal points to.
 
+  /// The direction need not have unit length.
   RayPlanes(const Vec3& origin, const Vec3& direction);
 };
 
@@ -66,7 +67,9 @@ public:
   void Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
     const ParallelFor& parallel);
 
+  /// Cells of all patches.
   std::int64_t CellCount() const { return static_cast<std::int64_t>(this->Cells.size()); }
+  /// Patches of all faces.
   std::int64_t PatchCount() const { return static_cast<std::int64_t>(this->Patches.size()); }
 
   /// The boxes of the cells.
@@ -77,7 +80,9 @@ public:
   /// The box of the cells' control points, empty if there are none.
   const Box3& Bounds() const { return this->Box; }
 
+  /// The face of a patch.
   std::int32_t FaceOf(std::int32_t patch) const { return this->Patches[patch].Face; }
+  /// The face of a cell.
   std::int32_t FaceOfCell(std::int32_t cell) const { return this->FaceOf(this->Cells[cell].Patch); }
 
   /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border

@@ -75,6 +75,7 @@ public:
 
   /// The tree over the parts of surfaces, and the face of each: for searches by box.
   const BoxTree& GetTree() const { return this->Tree; }
+  /// The face of a part.
   std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
 
   /// The model given.

@@ -22,11 +22,14 @@ struct RowSpline
   std::vector<double> Knots; ///< Count() + Degree + 1 values.
   std::vector<double> Rows;  ///< Count() x Width.
 
+  /// Number of rows.
   std::int64_t Count() const
   {
     return static_cast<std::int64_t>(this->Knots.size()) - this->Degree - 1;
   }
+  /// The Width numbers of a row.
   double* Row(std::int64_t i) { return this->Rows.data() + i * this->Width; }
+  /// Likewise.
   const double* Row(std::int64_t i) const { return this->Rows.data() + i * this->Width; }
 };
 

@@ -25,19 +25,25 @@ struct SurfaceView
   const double* Weights = nullptr;   ///< One a point, same indexing; null: all 1 (polynomial).
   const std::int64_t* Ids = nullptr; ///< Count[0] * Count[1] point indices; null: 0, 1, 2, ...
 
+  /// Number of control points.
   std::int64_t Size() const { return std::int64_t(this->Count[0]) * this->Count[1]; }
+  /// Index of control point k in Points and Weights.
   std::int64_t Id(std::int64_t k) const { return this->Ids ? this->Ids[k] : k; }
+  /// Control point k, Cartesian.
   Vec3 Point(std::int64_t k) const
   {
     return Eigen::Map<const Vec3>(this->Points + 3 * this->Id(k));
   }
+  /// Its weight.
   double Weight(std::int64_t k) const { return this->Weights ? this->Weights[this->Id(k)] : 1.0; }
+  /// Both: (w x, w y, w z, w).
   Vec4 Homogeneous(std::int64_t k) const
   {
     const double w = this->Weight(k);
     const double* p = this->Points + 3 * this->Id(k);
     return Vec4(p[0] * w, p[1] * w, p[2] * w, w);
   }
+  /// Where the surface is defined in a direction.
   Interval Domain(int dir) const { return nurbs::Domain(this->Knots[dir], this->Degree[dir]); }
   /// True if some weight differs from the others.
   bool IsRational() const;
@@ -52,6 +58,7 @@ struct Surface
   std::vector<Vec3> Points;    ///< Cartesian, u fastest.
   std::vector<double> Weights; ///< Empty: polynomial.
 
+  /// Valid until the surface changes.
   SurfaceView View() const;
 };
 

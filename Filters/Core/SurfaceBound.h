@@ -26,7 +26,9 @@ inline constexpr double NegligibleSpan = 1e-6;
 struct ParameterBox
 {
   double U0 = 0.0, U1 = 0.0, V0 = 0.0, V1 = 0.0;
+  /// Extent in u.
   double A() const { return this->U1 - this->U0; }
+  /// Extent in v.
   double B() const { return this->V1 - this->V0; }
 };
 
@@ -62,6 +64,7 @@ public:
   void MakeGrid(const std::vector<double>& linesU, const std::vector<double>& linesV,
     const ParallelFor& parallel);
 
+  /// The surface given.
   const SurfaceView& View() const { return this->Surface; }
   /// An evaluator to copy: copies share the control net.
   const SurfaceEvaluator& Evaluator() const { return this->Prototype; }
@@ -69,6 +72,7 @@ public:
   double Size() const { return this->Diagonal; }
   /// The plane that fits the control points: its normal, and their largest distance from it.
   const Vec3& PlaneNormal() const { return this->Normal; }
+  /// Likewise.
   double Flatness() const { return this->PlaneDistance; }
 
   /// Knots strictly inside the used part where the surface is not C1: no triangle may cross them.

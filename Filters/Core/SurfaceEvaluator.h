@@ -47,6 +47,7 @@ public:
   /// Points and derivatives to order 2 on such a grid, the same as those of Derivatives.
   void DerivativesGrid(ArrayView<double> us, ArrayView<double> vs, SurfaceDerivatives* derivatives);
 
+  /// The surface given.
   const SurfaceView& GetSurface() const { return this->View; }
 
 private:

@@ -55,6 +55,7 @@ public:
 
   /// Size in texels of 16 bytes of the face's part of TrimTexels; both 0 if IsWhole.
   std::int64_t PointTexelCount() const;
+  /// Likewise.
   std::int64_t RecordTexelCount() const;
   /// Writes that part: 4 values a texel. `pointStart` is the index that the first point texel will
   /// have in its buffer; nothing else depends on the place of the two parts.
@@ -95,6 +96,7 @@ public:
   {
     return this->Faces[static_cast<std::size_t>(face)];
   }
+  /// Faces of the model.
   std::int64_t FaceCount() const { return static_cast<std::int64_t>(this->Faces.size()); }
 
   /// Replaces one face by what its loops in `model` are now.

@@ -26,6 +26,7 @@ namespace nurbs
 class TrimTree
 {
 public:
+  /// A line that splits a part of the domain.
   struct Node
   {
     double Split;          ///< Low child: coordinates < Split.

@@ -47,6 +47,7 @@ public:
   vtkUnstructuredGrid* GetModel();
   ///@}
 
+  /// Faces of the model that was given.
   vtkIdType GetNumberOfFaces();
 
   /**

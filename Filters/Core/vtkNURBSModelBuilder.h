@@ -103,6 +103,7 @@ public:
    */
   void Reset();
 
+  /// Faces so far.
   vtkIdType GetNumberOfFaces() const;
 
   /**

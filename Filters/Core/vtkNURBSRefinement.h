@@ -59,6 +59,7 @@ public:
   vtkGetMacro(MaximumSpacing, double);
   ///@}
 
+  /// What SpacingMode may be.
   enum SpacingModes
   {
     RELATIVE = 0,

@@ -49,17 +49,24 @@ class CellForest
 public:
   static constexpr std::uint32_t SmallestSize = 16; ///< Units: cells are halved 12 times at most.
 
+  /// One cell a patch of the grid.
   explicit CellForest(const FaceGrid& grid);
 
+  /// A cell by its number.
   Cell& operator[](std::int32_t cell) { return this->Cells[cell]; }
+  /// Likewise.
   const Cell& operator[](std::int32_t cell) const { return this->Cells[cell]; }
+  /// Places of cells, free ones included.
   std::int32_t Size() const { return std::int32_t(this->Cells.size()); }
+  /// True if the cell is not halved.
   bool IsLeaf(std::int32_t cell) const { return this->Cells[cell].Child < 0; }
   /// The leaf that a place (not on a line) or the half-open cell at a line belongs to; -1: outside.
   std::int32_t LeafAt(std::int64_t i, std::int64_t j) const;
   /// The same, found from a cell nearby, which may be one that was merged.
   std::int32_t LeafNear(std::int32_t cell, std::int64_t i, std::int64_t j) const;
+  /// The cell's part of the domain.
   ParameterBox Box(std::int32_t cell) const;
+  /// False if the halves would be smaller than SmallestSize.
   bool CanSplit(std::int32_t cell, int direction) const;
   /// Halves a leaf. The halves are new leaves.
   std::int32_t Split(std::int32_t cell, int direction);

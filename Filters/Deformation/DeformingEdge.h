@@ -27,15 +27,20 @@ struct DeformingUse
 class DeformingEdge
 {
 public:
+  /// All faces of the model, by index.
   using Faces = std::vector<std::unique_ptr<DeformingFace>>;
 
+  /// An edge of the model with its uses.
   DeformingEdge(
     const Model& model, std::int64_t edge, std::vector<DeformingUse> uses, const Faces& faces);
 
+  /// Where loops run along it.
   const std::vector<DeformingUse>& Uses() const { return this->Where; }
+  /// True if the edge is one point.
   bool IsPole() const { return this->Pole; }
   /// True if some use is not along a side.
   bool HasInner() const { return !this->Pieces.empty(); }
+  /// Number of vertices, both ends included.
   std::size_t Vertices() const { return this->T.size(); }
   /// The piece of its own that the segment after a vertex is part of; -1: none.
   std::int32_t PieceAt(std::size_t vertex) const
@@ -45,6 +50,7 @@ public:
 
   /// Halves and merges pieces by their errors.
   void Adapt(const Model& model, const Faces& faces, double tolerance, double hysteresis);
+  /// True if pieces changed since the last Update.
   bool HasNewPieces() const { return this->PiecesChanged; }
   /// Halves a piece, if it is not very small.
   bool Force(const Model& model, const Faces& faces, std::int32_t piece);

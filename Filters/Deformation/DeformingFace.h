@@ -73,14 +73,19 @@ struct FaceOptions
 class DeformingFace
 {
 public:
+  /// Without vertices and triangles as yet. `used`: the box of the loops; `index`: of the face.
   DeformingFace(const SurfaceView& surface, bool reversed, const ParameterBox& used,
     std::int32_t index, MeshSlots& slots, const FaceOptions& options);
   DeformingFace(const DeformingFace&) = delete;
   DeformingFace& operator=(const DeformingFace&) = delete;
 
+  /// The lines that cells are cut along.
   const FaceGrid& Grid() const { return this->Lines; }
+  /// The part of the domain that loops use.
   const ParameterBox& Used() const { return this->Box; }
+  /// The cells.
   const CellForest& Cells() const { return this->Forest; }
+  /// Where the list of a cell's triangles starts; cell -1: the zone's.
   std::int32_t& FirstTriangle(std::int32_t cell)
   {
     return cell < 0 ? this->ZoneHead : this->Forest[cell].Triangles;
@@ -115,6 +120,7 @@ public:
   void SetSurface(const SurfaceView& surface) { this->Surface = surface; }
   /// True if cells along a side were halved or merged since the last Rebuild.
   bool HasNewOnSide(int side) const { return this->NewOnSide[side]; }
+  /// True if cells were halved or merged since the last Rebuild.
   bool HasNewCells() const { return !this->Fresh.empty() || !this->Retired.empty(); }
   /// The leaves' lines along a side of the grid, ascending.
   void SideLines(int side, std::vector<std::uint32_t>& lines) const;
@@ -124,8 +130,11 @@ public:
 
   // Loop vertices, by those who know the edges.
 
+  /// Returns its number. `modelVertex` -1: it is at none.
   std::int32_t AddLoopVertex(const Vec2& uv, std::int64_t modelVertex);
+  /// Its number may be given to another one.
   void RemoveLoopVertex(std::int32_t vertex);
+  /// A vertex of the loops.
   const LoopVertex& GetLoopVertex(std::int32_t vertex) const { return this->LoopVertices[vertex]; }
   /// Says which line of the grid across a side a vertex on that side is on; -1: none.
   void SetLine(std::int32_t vertex, int side, std::int64_t line);
@@ -147,10 +156,12 @@ public:
 
   /// Bounds over any box of the used part, of |S_uu|, |S_uv|, |S_vv| and of |S_u|, |S_v|.
   SecondBound Second(const ParameterBox& box);
+  /// Likewise.
   Vec2 First(const ParameterBox& box);
   /// Sums over all frames of the largest of these of all moves; see PatchErrors.h. Infinite after a
   /// frame in which weights changed.
   const SecondBound& MovedSecond() const { return this->SumSecond; }
+  /// Likewise.
   const Vec2& MovedFirst() const { return this->SumFirst; }
   /// Counts the frames after which nothing that was known of errors holds any more.
   int Resets() const { return this->ResetCount; }
@@ -159,6 +170,7 @@ public:
   double ErrorBound() const;
   /// Cells that cannot be halved any more although they err by more than the tolerance.
   std::int64_t CappedCells() const;
+  /// True if polylines of the loops crossed in the last Rebuild.
   bool HasCrossingLoops() const { return this->Crossing; }
   /// Asks for all pieces of the loops to be halved.
   void RequestLoops(RefinementRequests& requests) const;
@@ -181,6 +193,7 @@ public:
       }
     }
   }
+  /// Memory of H, H_u, H_v.
   std::int64_t BytesOfSums() const { return this->SumBytes; }
 
 private:

@@ -89,7 +89,9 @@ public:
   std::vector<unsigned char> ChangedPoints() const;
   /// Why a face has no triangles although it was given without an error; one a face, "" if it has.
   const std::vector<std::string>& FaceProblems() const { return this->Problems; }
+  /// Memory of H, H_u, H_v of all vertices.
   std::int64_t BytesOfSums() const;
+  /// A face; null if it can't be used.
   const DeformingFace* GetFace(std::int64_t face) const { return this->Faces[face].get(); }
 
 private:

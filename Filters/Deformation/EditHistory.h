@@ -19,6 +19,7 @@ struct ControlPointKey
 {
   std::int64_t Block = 0;
   std::int64_t Point = 0;
+  /// The same point.
   bool operator==(const ControlPointKey& other) const
   {
     return this->Block == other.Block && this->Point == other.Point;
@@ -28,6 +29,7 @@ struct ControlPointKey
 /// What was done to one control point. Default: nothing.
 struct ControlPointEdit
 {
+  /// What Value means.
   enum class Place
   {
     Unchanged,
@@ -38,6 +40,7 @@ struct ControlPointEdit
   Vec3 Value = Vec3::Zero();
   double Weight = 0.0; ///< The new weight, > 0; 0: that of the input.
 
+  /// True if nothing was done.
   bool IsNone() const { return this->Kind == Place::Unchanged && this->Weight == 0.0; }
   /// The place of a point that the input has at `place`.
   Vec3 Apply(const Vec3& place) const;
@@ -49,11 +52,14 @@ struct ControlPointEdit
 class EditHistory
 {
 public:
+  /// A point and its edit.
   using Change = std::pair<ControlPointKey, ControlPointEdit>;
 
   /// The edit of a point, a default one if there is none.
   ControlPointEdit Find(const ControlPointKey& key) const;
+  /// Number of points with an edit.
   std::size_t Size() const { return this->State.size(); }
+  /// All of them, in no useful order.
   std::vector<Change> All() const;
 
   /// Sets the edits of points; each must be named once. One step, or part of the open group's. No
@@ -63,14 +69,20 @@ public:
   /// Between BeginGroup and EndGroup all commits are one step; CancelGroup takes them back. Undo
   /// and Redo end the group first. Groups do not nest: a second BeginGroup ends the first.
   void BeginGroup();
+  /// See BeginGroup.
   void EndGroup();
+  /// See BeginGroup.
   void CancelGroup();
+  /// True between BeginGroup and EndGroup.
   bool IsGroupOpen() const { return this->Grouping; }
 
   /// One step back or forth; false if there is none.
   bool Undo();
+  /// Likewise.
   bool Redo();
+  /// Steps that can be undone.
   std::size_t UndoCount() const { return this->Done.size(); }
+  /// Steps that can be redone.
   std::size_t RedoCount() const { return this->Undone.size(); }
 
   /// Points whose edits were set since the last call, some perhaps more than once.

@@ -29,12 +29,17 @@ public:
   /// @param range the part of the domain that is used.
   GridAxis(KnotView knots, int degree, const Interval& range);
 
+  /// Non-empty knot spans of the range.
   int Columns() const { return int(this->Breaks.size()) - 1; }
+  /// Of the surface in this direction.
   int Degree() const { return this->P; }
   /// The first control point that a column's points depend on, of Degree() + 1.
   int First(int column) const { return this->Spans[column] - this->P; }
+  /// The parameters of a column.
   Interval Extent(int column) const { return { this->Breaks[column], this->Breaks[column + 1] }; }
+  /// The first parameter.
   double Start() const { return this->Breaks.front(); }
+  /// The last parameter.
   double End() const { return this->Breaks.back(); }
   /// The coordinate of the last line.
   std::uint32_t Last() const { return std::uint32_t(this->Columns()) << ColumnBits; }
@@ -47,6 +52,7 @@ public:
   void ColumnsOf(int control, int& first, int& last) const;
   /// The column that a parameter lies in.
   int ColumnAt(double t) const;
+  /// The parameter of a line.
   double Parameter(std::uint32_t line) const;
   /// The coordinate of the line at a parameter or before it, of the smallest cells there can be.
   std::int64_t LineBelow(double t) const;
@@ -79,22 +85,29 @@ private:
 /// Both directions.
 struct FaceGrid
 {
+  /// A grid of the used part of the domain.
   FaceGrid(const SurfaceView& surface, const ParameterBox& used)
     : Axis{ GridAxis(surface.Knots[0], surface.Degree[0], { used.U0, used.U1 }),
       GridAxis(surface.Knots[1], surface.Degree[1], { used.V0, used.V1 }) }
   {}
   GridAxis Axis[2];
 
+  /// Number of patches.
   int Patches() const { return this->Axis[0].Columns() * this->Axis[1].Columns(); }
+  /// The patch of a column and row.
   int Patch(int column, int row) const { return column + row * this->Axis[0].Columns(); }
+  /// The column of a patch.
   int Column(int patch) const { return patch % this->Axis[0].Columns(); }
+  /// The row of a patch.
   int Row(int patch) const { return patch / this->Axis[0].Columns(); }
+  /// A patch's part of the domain.
   ParameterBox Box(int patch) const
   {
     const Interval u = this->Axis[0].Extent(this->Column(patch));
     const Interval v = this->Axis[1].Extent(this->Row(patch));
     return { u.Min, u.Max, v.Min, v.Max };
   }
+  /// The parameters where two lines cross.
   Vec2 UV(std::uint32_t i, std::uint32_t j) const
   {
     return { this->Axis[0].Parameter(i), this->Axis[1].Parameter(j) };

@@ -59,12 +59,16 @@ public:
   FreeFormLattice(const LatticeBox& box, const std::array<int, 3>& counts,
     const std::array<int, 3>& degrees = { { 0, 0, 0 } });
 
+  /// Control points along an axis.
   int Count(int axis) const { return this->Axes[axis].Count; }
+  /// Degree along an axis.
   int Degree(int axis) const { return this->Axes[axis].Degree; }
+  /// Number of control points.
   std::int64_t Size() const { return std::int64_t(this->Displacements.size()) / 4; }
 
   /// Where a control point is at rest, and its displacement from there.
   Vec3 RestPoint(std::int64_t index) const;
+  /// Likewise.
   Vec3 Displacement(std::int64_t index) const;
 
   /// Moves all control points: Size() xyz triples. Points of the `frozen` outermost layers of every

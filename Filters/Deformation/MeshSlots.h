@@ -67,8 +67,11 @@ public:
   /// @param heads where an owner keeps its first triangle (-1: none): lists go on from there.
   MeshSlots(MeshArrays& arrays, std::function<std::int32_t&(const TriangleOwner&)> heads);
 
+  /// Returns its place; Points and Normals of it are the caller's to fill.
   std::int32_t AddPoint(const PointUse& use, const Vec2& uv);
+  /// Its place is free.
   void RemovePoint(std::int32_t point);
+  /// Three points, counter-clockwise from outside.
   void AddTriangle(const TriangleOwner& owner, std::int32_t a, std::int32_t b, std::int32_t c);
   /// Removes all triangles of an owner.
   void RemoveTriangles(const TriangleOwner& owner);
@@ -82,18 +85,25 @@ public:
   /// Numbers the points anew, without gaps. Returns the new number of each; -1: it was not in use.
   std::vector<std::int32_t> Compact();
 
+  /// What a point is.
   PointUse& Use(std::int32_t point) { return this->Uses[point]; }
+  /// Likewise.
   const PointUse& Use(std::int32_t point) const { return this->Uses[point]; }
+  /// Number of triangles.
   std::int64_t Triangles() const
   {
     return this->TriangleEnd - std::int64_t(this->FreeTriangles.size());
   }
+  /// The arrays given.
   MeshArrays& Arrays() { return this->Data; }
+  /// Likewise.
   const MeshArrays& Arrays() const { return this->Data; }
+  /// A point's position.
   Eigen::Map<Vec3> Point(std::int32_t point)
   {
     return Eigen::Map<Vec3>(this->Data.Points + 3 * std::int64_t(point));
   }
+  /// A point's parameters.
   Vec2 UV(std::int32_t point) const
   {
     return Eigen::Map<const Vec2>(this->Data.UV + 2 * std::int64_t(point));
@@ -109,7 +119,9 @@ public:
     bool Renumbered = false;                ///< All points have other numbers.
     std::vector<std::int32_t> Added;        ///< Points, some of which may be gone again.
   };
+  /// What changed.
   const Changes& GetChanges() const { return this->Changed; }
+  /// Forgets what changed.
   void ClearChanges() { this->Changed = Changes(); }
 
 private:

@@ -19,12 +19,14 @@ namespace nurbs
 struct SecondBound
 {
   double Uu = 0.0, Uv = 0.0, Vv = 0.0;
+  /// The sum, entry by entry.
   void operator+=(const SecondBound& other)
   {
     this->Uu += other.Uu;
     this->Uv += other.Uv;
     this->Vv += other.Vv;
   }
+  /// The greater one, entry by entry.
   void Extend(const SecondBound& other)
   {
     this->Uu = std::max(this->Uu, other.Uu);
@@ -64,9 +66,11 @@ private:
 class NetPath
 {
 public:
+  /// A walk begins at the whole patch.
   void Start(const BezierNet& net);
   /// Goes on to a half (0, 1) in a direction, or back.
   void Push(int direction, int half) { this->Steps.push_back({ direction, half }); }
+  /// Back to what the last Push went on from.
   void Pop();
   /// Bounds over the present part, times the squares and product of its extents: the sum of them, the
   /// mixed one twice, is 8 times the bound of |S - L|.

@@ -23,10 +23,13 @@ struct PatchVertices
   std::vector<double> Sums;           ///< H, H_u, H_v of each, 12 numbers; or nothing.
   int Updates = 0;                    ///< Since Sums were evaluated.
 
+  /// Appends a vertex; see the members.
   void Add(std::int32_t i, std::int32_t j, std::int32_t point, std::uint64_t key);
   /// Removes a vertex; the last one takes its place.
   void Remove(std::size_t index);
+  /// Number of vertices.
   std::size_t Size() const { return this->Points.size(); }
+  /// True if Sums are kept.
   bool HasSums() const { return !this->Sums.empty(); }
 };
 

@@ -79,6 +79,7 @@ public:
   vtkTypeMacro(vtkNURBSDeformingTessellator, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,
@@ -141,6 +142,7 @@ public:
   vtkGetMacro(PatchSubdivisions, int);
   ///@}
 
+  /// What CoefficientStorage may be.
   enum CoefficientStorages
   {
     EAGER = 0,
@@ -274,6 +276,7 @@ public:
   vtkGetMacro(OutputSeconds, double);
   ///@}
 
+  /// The camera's included.
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -181,6 +181,7 @@ public:
    */
   vtkGetMacro(NumberOfMovedPoints, vtkIdType);
 
+  /// The lattice's included.
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -51,6 +51,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What LengthUnit may be.
   enum LengthUnits
   {
     MILLIMETRES = 0,

@@ -61,6 +61,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What Format may be.
   enum Formats
   {
     BY_ENDING = 0,

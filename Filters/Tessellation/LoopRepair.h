@@ -16,6 +16,7 @@
 namespace nurbs
 {
 
+/// Closed polygons in (u, v); the first point is not repeated.
 using Loops2 = std::vector<std::vector<Vec2>>;
 
 /// Finds the pairs of sides that have more in common than an end. Keeps its memory from call to

@@ -56,6 +56,7 @@ public:
   vtkTypeMacro(vtkNURBSTessellator, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,
@@ -121,6 +122,7 @@ public:
   vtkGetVector2Macro(ViewportSize, int);
   ///@}
 
+  /// What Method may be.
   enum Methods
   {
     KD_TREE = 0,
@@ -141,6 +143,7 @@ public:
   void SetMethodToBinary() { this->SetMethod(BINARY); }
   ///@}
 
+  /// What ErrorMode may be.
   enum ErrorModes
   {
     GUARANTEED = 0,
@@ -158,6 +161,7 @@ public:
   void SetErrorModeToEstimated() { this->SetErrorMode(ESTIMATED); }
   ///@}
 
+  /// What CurveSubdivision may be.
   enum CurveSubdivisions
   {
     MIDPOINT = 0,
@@ -175,6 +179,7 @@ public:
   void SetCurveSubdivisionToArbitrary() { this->SetCurveSubdivision(ARBITRARY); }
   ///@}
 
+  /// What CurveMeasure may be.
   enum CurveMeasures
   {
     LINE = 0,

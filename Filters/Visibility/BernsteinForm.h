@@ -18,7 +18,9 @@ struct BernsteinForm
   int Degree[2] = { 0, 0 };
   std::vector<double> Coefficients;
 
+  /// Coefficient (i, j).
   double At(int i, int j) const { return this->Coefficients[i + j * (this->Degree[0] + 1)]; }
+  /// The polynomial's value.
   double Evaluate(double u, double v) const;
   /// Largest magnitude of a coefficient.
   double Magnitude() const;
@@ -49,10 +51,13 @@ struct ScaledForm
   int Degree[2] = { 0, 0 };
   std::vector<double> Coefficients;
 
+  /// Zero, of degree m in u and n in v.
   ScaledForm(int m, int n);
+  /// Adds factor a b; the degrees of a and b add up to this one's.
   void AddProduct(double factor, const ScaledForm& a, const ScaledForm& b);
   /// Adds `a`, of a degree lower by one in both directions, times u or 1 - u and v or 1 - v.
   void AddTimesBilinear(double factor, const ScaledForm& a, bool u, bool v);
+  /// The same polynomial in the Bernstein basis.
   BernsteinForm Unscaled() const;
 };
 

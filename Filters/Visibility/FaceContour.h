@@ -17,6 +17,7 @@ enum class PatchVisibility
   Partial,     ///< Both.
   EdgeOn       ///< normal . view vanishes.
 };
+/// Number of kinds.
 inline constexpr int PatchVisibilityCount = 4;
 
 /// A connected part of the contour in the domain of one surface.
@@ -27,6 +28,7 @@ struct SurfaceContour
   bool Closed = false;
 };
 
+/// What TraceSurface found.
 struct SurfaceContours
 {
   std::vector<SurfaceContour> Contours;

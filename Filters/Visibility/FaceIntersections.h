@@ -26,6 +26,7 @@ struct FaceIntersection
   TrimCrossing Ends[2];
 };
 
+/// How curves are looked for.
 struct FaceIntersectionOptions
 {
   double Precision = 1e-4; ///< Largest distance of chords from the exact curve, a length over 0.
@@ -34,6 +35,7 @@ struct FaceIntersectionOptions
   std::function<bool(double)> Progress;
 };
 
+/// What was found.
 struct FaceIntersections
 {
   std::vector<FaceIntersection> Curves; ///< By pair of faces, in order.

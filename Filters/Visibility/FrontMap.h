@@ -51,6 +51,7 @@ struct LineSource
   bool IsBare = false;
 };
 
+/// The map of the image: its cells, what is in front in each, and where edges come from.
 struct FrontMap
 {
   double Pixel = 1.0;         ///< Size, a length in the image.
@@ -70,12 +71,16 @@ struct FrontMap
 
   /// True for cells that are too narrow to be looked into: under about a pixel and a half.
   bool IsSliver(std::int32_t cell) const;
+  /// The cell to the left (0) or right (1) of an edge.
   std::int32_t Cell(std::int32_t edge, int side) const { return this->Plane.Sides[edge][side]; }
+  /// What is in front in that cell.
   const FrontHit& Front(std::int32_t edge, int side) const
   {
     return this->Cells[this->Cell(edge, side)];
   }
+  /// The image point of a point of the grid.
   Vec2 ToImage(const Vec2& grid) const { return this->Center + this->Pixel * grid; }
+  /// The image point of a vertex.
   Vec2 VertexImage(std::int32_t vertex) const
   {
     const GridPoint& p = this->Snapped.Vertices[vertex];
@@ -83,6 +88,7 @@ struct FrontMap
   }
   /// The edge of an entry of Snapped.Path, and the sources of an edge.
   static std::int32_t EdgeOf(std::int32_t entry) { return entry < 0 ? ~entry : entry; }
+  /// Likewise.
   ArrayView<LineSource> SourcesOf(std::int32_t edge) const
   {
     return { this->Sources.data() + this->SourceStart[edge],
@@ -117,6 +123,7 @@ struct LineStep
 class LineWalk
 {
 public:
+  /// Both must outlive this.
   LineWalk(const std::vector<ViewLine>& lines, const FrontMap& map);
 
   /// All steps of a line, in order.
@@ -126,12 +133,14 @@ public:
   {
     return this->Map.Sources[step.Source].Backward ? 1 - lineSide : lineSide;
   }
+  /// The cell on a side of the line.
   std::int32_t Cell(const LineStep& step, int lineSide) const
   {
     return this->Map.Cell(step.Edge, this->Side(step, lineSide));
   }
   /// Positions of a step's ends on its line.
   LinePosition Start(const LineStep& step) const;
+  /// Likewise.
   LinePosition End(const LineStep& step) const;
   /// The end of the steps from `first` on along which nothing changes beside the line: no other line
   /// meets it, and no silhouette ends on it. (A line may become hidden where its cell goes on: all

@@ -30,6 +30,7 @@ public:
   /// has all of the box on one side.
   ImagePlane(const Viewer& viewer, const Vec3& up, const Box3& bounds);
 
+  /// The viewer given.
   const Viewer& GetViewer() const { return this->View; }
   /// Of a point in front of the eye.
   Vec2 Project(const Vec3& point) const;
@@ -37,6 +38,7 @@ public:
   double Depth(const Vec3& point) const { return this->Axes[2].dot(point - this->Origin); }
   /// The line of sight of an image point, away from the viewer; t is a length.
   Ray Sight(const Vec2& image) const;
+  /// Two planes that meet in the line of sight.
   SightPlanes Planes(const Vec2& image) const;
 
   /// Moves (u, v) on the surface (not its trimmed part alone) to where an image point is seen, by

@@ -55,6 +55,7 @@ struct ContourArc
   std::vector<ContourPoint> Inner;
 };
 
+/// How closely a contour is followed.
 struct ContourLimits
 {
   double Precision = 1e-4;  ///< Largest distance of chord and contour, a length.

@@ -31,6 +31,7 @@ struct PlanarDiagonal
 /// See PlanarMap::SideSamples; pixels.
 inline constexpr double SideReach = 4.0;
 
+/// The cells of an arrangement of edges.
 struct PlanarMap
 {
   /// Cell 0 is the unbounded one; others are numbered as the edges meet them, left before right.

@@ -12,6 +12,7 @@
 namespace nurbs
 {
 
+/// Where from, how exact, which lines.
 struct SilhouetteOptions
 {
   Viewer View;
@@ -43,6 +44,7 @@ struct SilhouetteLine
   std::int64_t Chain = -1; ///< Lines with the same number are connected.
 };
 
+/// How a face's silhouette came out.
 enum class SilhouetteStatus
 {
   Ok = 0,
@@ -51,6 +53,7 @@ enum class SilhouetteStatus
   Failed    ///< The face can't be used.
 };
 
+/// What is told of a face.
 struct FaceSilhouette
 {
   SilhouetteStatus Status = SilhouetteStatus::Ok;
@@ -58,6 +61,7 @@ struct FaceSilhouette
   std::int64_t Patches[PatchVisibilityCount] = { 0, 0, 0, 0 };
 };
 
+/// All lines of a model, and what is told of its faces.
 struct Silhouettes
 {
   std::vector<SilhouetteLine> Lines; ///< Silhouettes by face, then edges by their index.

@@ -34,13 +34,17 @@ namespace nurbs
 /// The largest magnitude of a coordinate.
 inline constexpr std::int64_t GridLimit = std::int64_t(1) << 29;
 
+/// A point of the grid of pixels.
 struct GridPoint
 {
   std::int64_t X = 0;
   std::int64_t Y = 0;
 
+  /// The same point.
   bool operator==(const GridPoint& p) const { return this->X == p.X && this->Y == p.Y; }
+  /// Another point.
   bool operator!=(const GridPoint& p) const { return !(*this == p); }
+  /// By x, then by y.
   bool operator<(const GridPoint& p) const
   {
     return this->X != p.X ? this->X < p.X : this->Y < p.Y;
@@ -54,6 +58,7 @@ struct GridSegment
   std::int32_t End = 0;
 };
 
+/// Edges that meet at their ends only, and the way of every segment along them.
 struct SnappedSegments
 {
   /// The hot pixels' centres, sorted by X, then Y. Points that no segment uses are not among them.

@@ -36,7 +36,9 @@ struct ViewLine
   /// All of its faces face away, and the outside of a closed shell is all that can be seen.
   bool IsBehind = false;
 
+  /// True for edges of the model.
   bool IsEdge() const { return !this->Shares.empty(); }
+  /// True where faces pierce each other.
   bool IsIntersection() const { return this->OtherFace >= 0; }
 };
 
@@ -83,9 +85,11 @@ bool MayFaceViewer(const FaceSilhouette& face);
 
 /// Point of a line, and its image.
 Vec3 PointAt(const ViewLine& line, LinePosition at);
+/// The image point at a position.
 Vec2 ImageAt(const ViewLine& line, LinePosition at);
 /// (u, v) on the line's own face; on the face given, which may be the other one of an intersection.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at);
+/// The parameters on a face at a position.
 Vec2 ParametersAt(const ViewLine& line, LinePosition at, std::int64_t face);
 /// The same, moved from the chord to the edge's or intersection curve; silhouettes: to the surface.
 ContourPoint ExactPointAt(const ViewLines& lines, const ViewLine& line, LinePosition at);

@@ -15,6 +15,7 @@ namespace nurbs
 
 class ModelBuilder;
 
+/// Where from, how exact, what is wanted.
 struct VisibleRegionOptions
 {
   Viewer View;
@@ -36,6 +37,7 @@ struct VisibleRegionOptions
   std::function<bool(double)> Progress;
 };
 
+/// What is visible of a face.
 struct FaceRegion
 {
   std::vector<RegionLoop> Loops; ///< Empty: no part of the face.
@@ -57,6 +59,7 @@ struct DrawnLine
   std::vector<ContourPoint> Points;
 };
 
+/// Regions of all faces and the lines of the drawing.
 struct VisibleRegions
 {
   std::optional<ImagePlane> Image; ///< What was projected to.

@@ -53,6 +53,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What Format may be.
   enum Formats
   {
     BY_ENDING = 0,
@@ -80,6 +81,7 @@ public:
   vtkGetMacro(Scale, double);
   ///@}
 
+  /// What PageSize may be.
   enum PageSizes
   {
     TIGHT = 0,
@@ -99,6 +101,7 @@ public:
   vtkGetMacro(PageSize, int);
   ///@}
 
+  /// What Orientation may be.
   enum Orientations
   {
     AUTOMATIC = 0,
@@ -150,6 +153,7 @@ public:
   vtkGetMacro(HiddenWidth, double);
   ///@}
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,

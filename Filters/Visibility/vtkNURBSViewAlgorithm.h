@@ -30,6 +30,7 @@ public:
   vtkTypeMacro(vtkNURBSViewAlgorithm, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What Projection may be.
   enum Projections
   {
     PARALLEL = 0,
@@ -71,6 +72,7 @@ public:
   vtkGetObjectMacro(Camera, vtkCamera);
   ///@}
 
+  /// What PrecisionMode may be.
   enum PrecisionModes
   {
     RELATIVE = 0,

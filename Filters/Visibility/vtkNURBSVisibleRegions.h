@@ -73,6 +73,7 @@ public:
   vtkGetVector3Macro(ViewUp, double);
   ///@}
 
+  /// What Region may be.
   enum Regions
   {
     VISIBLE_REGION = 0,

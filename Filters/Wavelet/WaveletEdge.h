@@ -32,7 +32,9 @@ public:
 
   /// A pole; it has one point and nothing else.
   bool IsPole() const { return this->Pole; }
+  /// The dyadic lines along the edge.
   const DyadicAxis& Axis() const { return this->Lines; }
+  /// The trim curves that run along the edge.
   const std::vector<WaveletEdgeUse>& Uses() const { return this->Where; }
   /// Points at the finest lines (Interpolating and Lifted, whose curves are the same).
   const std::vector<Vec3>& Points() const { return this->Fine; }
@@ -46,9 +48,11 @@ public:
   /// of the finest lines (Haar: the whole polyline of a level). The curve's own part of it is
   /// certified for edges with a 3D curve and sides of surfaces, and sampled for others.
   double SegmentError(int first, int last) const;
+  /// Likewise, of a level of Haar's wavelet.
   double HaarError(int level) const;
   /// The largest coefficient between two lines (Haar: that a level lacks).
   double LargestCoefficient(int first, int last) const;
+  /// Likewise, of a level of Haar's wavelet.
   double HaarDropped(int level) const;
   /// Segments that are left when those with a coefficient over a threshold are halved.
   std::int64_t CountSegments(double threshold) const;

@@ -42,9 +42,13 @@ public:
   /// Evaluates and analyses a face of a completed model. Throws Error if it can't be used.
   WaveletFace(const Model& model, std::int64_t face, Wavelet kind, const FinestGrid& finest);
 
+  /// The box of the loops.
   const ParameterBox& Box() const { return this->Used; }
+  /// Lines of the grid in a direction.
   const DyadicAxis& Axis(int dir) const { return this->Axes[dir]; }
+  /// Bounds of the surface's derivatives.
   const SurfaceBound& Bound() const { return *this->Bounds; }
+  /// What evaluation and analysis gave.
   const WaveletPyramid& Pyramid() const { return this->Samples; }
   /// Levels, at least 1. Coarser ones are the same as the last.
   int Levels() const { return this->Samples.Levels(); }

@@ -19,6 +19,7 @@ struct DyadicAxis
   std::vector<double> Breaks{ 0.0, 1.0 }; ///< Ends of the base intervals, ascending.
   int Depth = 0;
 
+  /// Intervals of the coarsest grid.
   int BaseIntervals() const { return int(this->Breaks.size()) - 1; }
   /// How many times a level has halved this direction.
   int Halvings(int level) const { return std::min(level, this->Depth); }

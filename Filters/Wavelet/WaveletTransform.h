@@ -48,11 +48,14 @@ struct GridStep
   int Intervals[2] = { 0, 0 };       ///< Of the fine grid, u then v; 0 of v: a curve, one row.
   bool Halved[2] = { false, false }; ///< The directions that the step halves; even intervals there.
 
+  /// Samples of the fine grid in a direction.
   int FineSamples(int dir) const { return this->Samples(this->Intervals[dir]); }
+  /// Intervals of the coarse grid in a direction.
   int CoarseIntervals(int dir) const
   {
     return this->Halved[dir] ? this->Intervals[dir] / 2 : this->Intervals[dir];
   }
+  /// Samples of the coarse grid in a direction.
   int CoarseSamples(int dir) const { return this->Samples(this->CoarseIntervals(dir)); }
 
 private:

