@@ -217,15 +217,16 @@ void ParsePage(const std::string& text, Arguments& arguments)
     lie.empty() ? Lie::Automatic : (lie == "landscape" ? Lie::Landscape : Lie::Portrait);
 }
 
-// A finite number greater than 0.
-CLI::Validator Positive()
+// A finite number greater than 0, or also 0.
+CLI::Validator Positive(bool orZero = false)
 {
   return CLI::Validator(
-    [](std::string& text) {
+    [orZero](std::string& text) {
       double value = 0.0;
-      const bool good =
-        CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value);
-      return good ? std::string() : "'" + text + "' is not a number greater than 0";
+      const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+        (value > 0.0 || (orZero && value == 0.0));
+      return good ? std::string()
+                  : "'" + text + "' is not a number " + (orZero ? "from 0 on" : "greater than 0");
     },
     std::string());
 }
@@ -467,7 +468,7 @@ void AddConvert(CLI::App& app, Arguments& arguments)
       "how far apart faces may be that share an edge, as a part of the model's diagonal; default "
       "1e-4")
     ->type_name("G")
-    ->check(CLI::NonNegativeNumber);
+    ->check(Positive(true));
   command->add_flag(
     "--strict", arguments.Strict, "return 3 if a face failed or is not valid, or an edge is torn");
   command->group("Commands");

@@ -79,7 +79,7 @@ class Convert(Folder):
         self.fails("convert", SCREW, "-o", self.folder / "s.stl", says="models are .step")
         self.fails("convert", SCREW, "-o", self.folder / "no/s.step", says="cannot write")
         self.fails("convert", self.folder / "no.step", "-o", self.folder / "s.step", says="no such")
-        self.fails("convert", SCREW, "-o", self.folder / "s.step", "--gap", "0", says="'0' is not",
+        self.fails("convert", SCREW, "-o", self.folder / "s.step", "--gap=-1", says="'-1' is not",
                    code=2)
 
 
