@@ -14,9 +14,11 @@ namespace nurbs
 class MessageWriter
 {
 public:
+  /// Appends to `out`, which must stay.
   explicit MessageWriter(std::vector<char>& out)
     : Out(out)
   {}
+  /// So many values of a plain type.
   template <typename T>
   void Put(const T* values, std::size_t count)
   {
@@ -26,6 +28,7 @@ public:
     bytes = reinterpret_cast<const char*>(values);
     this->Out.insert(this->Out.end(), bytes, bytes + count * sizeof(T));
   }
+  /// A vector or a string.
   template <typename C>
   void Put(const C& values)
   {
@@ -40,10 +43,13 @@ private:
 class MessageReader
 {
 public:
+  /// Starts at the front of `in`, which must stay.
   explicit MessageReader(const std::vector<char>& in)
     : In(in)
   {}
+  /// True behind the last array.
   bool IsDone() const { return this->At >= this->In.size(); }
+  /// The next array, into a vector or a string.
   template <typename C>
   void Get(C& values)
   {

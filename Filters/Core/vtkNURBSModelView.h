@@ -25,14 +25,15 @@ public:
   /// data: see GetProblems. A null grid gives an empty model.
   explicit vtkNURBSModelView(
     vtkUnstructuredGrid* grid, const nurbs::AssembleOptions& options = nurbs::AssembleOptions());
-  /// The grid's arrays as they are, without a look at what they hold: GetArrays only. The ids are its
-  /// EdgeGlobalId and VertexGlobalId, empty if it has none.
+  /// The arrays of a grid; the ids are its EdgeGlobalId and VertexGlobalId, empty if it has none or
+  /// others than edges and vertices.
   struct Raw
   {
     std::unique_ptr<vtkNURBSModelView> Owner; ///< Keeps them alive.
     nurbs::ModelArrays Arrays;
     nurbs::ModelArrays::Integers EdgeIds, VertexIds;
   };
+  /// The grid's arrays as they are, without a look at what they hold.
   static Raw GetRaw(vtkUnstructuredGrid* grid);
   ~vtkNURBSModelView();
   vtkNURBSModelView(const vtkNURBSModelView&) = delete;
