@@ -102,8 +102,8 @@ const char* const ConvertExamples = R"(Formats, by the ending of -o:
   .iges .igs   IGES solids and shells: colours, unit
   .brep .brp   OpenCASCADE's own: geometry in millimetres
   .vtu .vtpc   VTK: all arrays; one model, or an assembly
-  Surfaces keep their degrees, knots and weights. Faces that share edges are sewn, and what is closed
-  becomes a solid.
+  Surfaces keep their degrees, knots and weights. Faces that share edges are sewn, and what is
+  closed becomes a solid.
 
 Examples:
   vtknurbs convert gear.iges -o gear.step
@@ -465,8 +465,7 @@ void AddConvert(CLI::App& app, Arguments& arguments)
     ->required();
   command
     ->add_option("--gap", arguments.Gap,
-      "how far apart faces may be that share an edge, as a part of the model's diagonal; default "
-      "1e-4")
+      "largest gap of faces at a shared edge, of the model's diagonal; default 1e-4")
     ->type_name("G")
     ->check(Positive(true));
   command->add_flag(
