@@ -254,11 +254,17 @@ vtkNURBSPieces::Identity vtkNURBSPieces::GetIdentity() const
       out.Faces.push_back(
         { (std::int64_t(owner) << 32) + block, std::int64_t(numbers->GetTuple1(k)) });
     }
-    for (const std::int64_t id : this->EdgeIds.at(block))
+    const auto edges = this->EdgeIds.find(block);
+    const auto vertices = this->VertexIds.find(block);
+    if (edges == this->EdgeIds.end() || vertices == this->VertexIds.end())
+    {
+      return; // No face of this block is one of this process, or beside one.
+    }
+    for (const std::int64_t id : edges->second)
     {
       out.Edges.push_back(Key(block, id, false));
     }
-    for (const std::int64_t id : this->VertexIds.at(block))
+    for (const std::int64_t id : vertices->second)
     {
       out.Vertices.push_back(Key(block, id, true));
     }

@@ -523,6 +523,7 @@ int vtkNURBSControlPointEdits::RequestData(
     vtkErrorMacro(<< problem);
     return 1;
   }
+  this->BeforeEdits();
   const int done = this->Edit(this->Internals->Whole ? this->Internals->Whole : input, output);
   if (this->Internals->Whole)
   {

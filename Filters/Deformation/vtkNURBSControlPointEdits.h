@@ -166,6 +166,9 @@ protected:
   ~vtkNURBSControlPointEdits() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /// Called while the filter executes, as soon as edits can be checked against the input: its points
+  /// are numbered over the models of all processes then. Does nothing.
+  virtual void BeforeEdits() {}
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

@@ -72,8 +72,7 @@ void vtkPVNURBSControlPointEdits::RemoveAllWeights()
   this->Clear(this->Tables->Weights);
 }
 
-int vtkPVNURBSControlPointEdits::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkPVNURBSControlPointEdits::BeforeEdits()
 {
   if (this->Changed)
   {
@@ -88,5 +87,4 @@ int vtkPVNURBSControlPointEdits::RequestData(
     this->Tables->Apply(this);
     this->Changed = false;
   }
-  return this->Superclass::RequestData(request, inputs, outputs);
 }

@@ -55,8 +55,7 @@ protected:
   vtkPVNURBSControlPointEdits();
   ~vtkPVNURBSControlPointEdits() override;
 
-  int RequestData(
-    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void BeforeEdits() override;
 
 private:
   vtkPVNURBSControlPointEdits(const vtkPVNURBSControlPointEdits&) = delete;
