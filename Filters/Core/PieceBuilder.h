@@ -33,6 +33,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> DealModels(
 class PieceBuilder
 {
 public:
+  /// Global ids of edges or vertices.
   using Integers = ArrayView<std::int64_t>;
 
   /// Starts with another source; all sources must stay until Finish. Edges and vertices of sources

@@ -14,9 +14,11 @@ namespace nurbs
 class MessageWriter
 {
 public:
+  /// Appends to `out`, which must outlive this.
   explicit MessageWriter(std::vector<char>& out)
     : Out(out)
   {}
+  /// Appends `count` values.
   template <typename T>
   void Put(const T* values, std::size_t count)
   {
@@ -26,6 +28,7 @@ public:
     bytes = reinterpret_cast<const char*>(values);
     this->Out.insert(this->Out.end(), bytes, bytes + count * sizeof(T));
   }
+  /// Appends a vector's values.
   template <typename C>
   void Put(const C& values)
   {
@@ -40,10 +43,13 @@ private:
 class MessageReader
 {
 public:
+  /// Reads from the start of `in`, which must outlive this.
   explicit MessageReader(const std::vector<char>& in)
     : In(in)
   {}
+  /// True if everything was read.
   bool IsDone() const { return this->At >= this->In.size(); }
+  /// Takes the next array.
   template <typename C>
   void Get(C& values)
   {

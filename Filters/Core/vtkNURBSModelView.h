@@ -33,6 +33,7 @@ public:
     nurbs::ModelArrays Arrays;
     nurbs::ModelArrays::Integers EdgeIds, VertexIds;
   };
+  /// The grid's arrays as they are, unchecked.
   static Raw GetRaw(vtkUnstructuredGrid* grid);
   ~vtkNURBSModelView();
   vtkNURBSModelView(const vtkNURBSModelView&) = delete;
