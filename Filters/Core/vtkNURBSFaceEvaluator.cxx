@@ -114,9 +114,15 @@ bool vtkNURBSFaceEvaluator::HasFace(vtkIdType cell)
   return reason.empty() || this->Refuse(reason);
 }
 
-bool vtkNURBSFaceEvaluator::HasParameters(vtkIdType cell, vtkDataArray* parameters)
+bool vtkNURBSFaceEvaluator::CanFill(vtkIdType cell, vtkDataArray* results)
 {
-  if (!this->HasFace(cell))
+  return this->HasFace(cell) && (results || this->Refuse("there is no array for the results"));
+}
+
+bool vtkNURBSFaceEvaluator::HasParameters(
+  vtkIdType cell, vtkDataArray* parameters, vtkDataArray* results)
+{
+  if (!this->CanFill(cell, results))
   {
     return false;
   }
@@ -129,7 +135,7 @@ bool vtkNURBSFaceEvaluator::HasParameters(vtkIdType cell, vtkDataArray* paramete
 bool vtkNURBSFaceEvaluator::Evaluate(
   vtkIdType cell, vtkDataArray* parameters, int order, vtkDoubleArray* results)
 {
-  if (!this->HasParameters(cell, parameters))
+  if (!this->HasParameters(cell, parameters, results))
   {
     return false;
   }
@@ -170,7 +176,7 @@ bool vtkNURBSFaceEvaluator::Evaluate(
 bool vtkNURBSFaceEvaluator::EvaluateNormals(
   vtkIdType cell, vtkDataArray* parameters, vtkDoubleArray* normals)
 {
-  if (!this->HasParameters(cell, parameters))
+  if (!this->HasParameters(cell, parameters, normals))
   {
     return false;
   }
@@ -197,7 +203,7 @@ bool vtkNURBSFaceEvaluator::EvaluateNormals(
 bool vtkNURBSFaceEvaluator::EvaluateInside(
   vtkIdType cell, vtkDataArray* parameters, vtkUnsignedCharArray* inside)
 {
-  if (!this->HasParameters(cell, parameters))
+  if (!this->HasParameters(cell, parameters, inside))
   {
     return false;
   }
@@ -255,7 +261,7 @@ bool vtkNURBSFaceEvaluator::GetNetSize(vtkIdType cell, int size[2])
 
 bool vtkNURBSFaceEvaluator::GetKnots(vtkIdType cell, int direction, vtkDoubleArray* knots)
 {
-  if (!this->HasFace(cell))
+  if (!this->CanFill(cell, knots))
   {
     return false;
   }
@@ -270,7 +276,7 @@ bool vtkNURBSFaceEvaluator::GetKnots(vtkIdType cell, int direction, vtkDoubleArr
 
 bool vtkNURBSFaceEvaluator::GetControlPoints(vtkIdType cell, vtkDoubleArray* points)
 {
-  if (!this->HasFace(cell))
+  if (!this->CanFill(cell, points))
   {
     return false;
   }
@@ -286,7 +292,7 @@ bool vtkNURBSFaceEvaluator::GetControlPoints(vtkIdType cell, vtkDoubleArray* poi
 
 bool vtkNURBSFaceEvaluator::GetWeights(vtkIdType cell, vtkDoubleArray* weights)
 {
-  if (!this->HasFace(cell))
+  if (!this->CanFill(cell, weights))
   {
     return false;
   }
@@ -355,6 +361,10 @@ bool vtkNURBSFaceEvaluator::GetTrimCurve(
   if (found < 0)
   {
     return false;
+  }
+  if (!points || !knots)
+  {
+    return this->Refuse("there is no array for the results");
   }
   const nurbs::CurveView<2>& geometry = this->Content->View->GetModel().TrimCurves[found].Geometry;
   CopyTo(points, 3, geometry.Points, 3 * static_cast<std::size_t>(geometry.Count));

@@ -121,7 +121,8 @@ private:
   bool Refuse(const std::string& reason);
   /// True if the cell is a face that can be used; the model is checked first if need be.
   bool HasFace(vtkIdType cell);
-  bool HasParameters(vtkIdType cell, vtkDataArray* parameters);
+  bool CanFill(vtkIdType cell, vtkDataArray* results);
+  bool HasParameters(vtkIdType cell, vtkDataArray* parameters, vtkDataArray* results);
   /// The index of a trim curve in the model, or -1.
   vtkIdType FindTrimCurve(vtkIdType cell, vtkIdType loop, vtkIdType curve);
 

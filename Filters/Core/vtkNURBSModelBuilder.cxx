@@ -322,6 +322,11 @@ bool vtkNURBSModelBuilder::AddTrimCurve(
 
 void vtkNURBSModelBuilder::Build(vtkUnstructuredGrid* grid)
 {
+  if (!grid)
+  {
+    vtkErrorMacro("there is no grid to build the model in");
+    return;
+  }
   nurbs::ModelBuilder builder;
   builder.LengthUnit = this->LengthUnit;
   nurbs::PatchStitcher stitcher(builder, 1e-12 * this->Content->Size());

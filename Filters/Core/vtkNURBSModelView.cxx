@@ -272,6 +272,11 @@ vtkNURBSModelView::Raw vtkNURBSModelView::GetRaw(vtkUnstructuredGrid* grid)
   vtkFieldData* field = grid->GetFieldData();
   raw.EdgeIds = content.FindIntegers(field, names::EdgeGlobalId, 1, false);
   raw.VertexIds = content.FindIntegers(field, names::VertexGlobalId, 1, false);
+  if (raw.EdgeIds.size() != raw.Arrays.EdgeDegree.size() ||
+    3 * raw.VertexIds.size() != raw.Arrays.VertexPoints.size())
+  {
+    raw.EdgeIds = raw.VertexIds = {}; // They number other edges.
+  }
   return raw;
 }
 

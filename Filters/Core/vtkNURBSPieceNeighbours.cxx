@@ -13,6 +13,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 namespace
@@ -38,12 +39,19 @@ void ForEdges(const vtkNURBSModelView::Raw& raw, vtkIdType face, F f)
   const auto at = [](const nurbs::ModelArrays::Integers& values, std::int64_t index) {
     return index >= 0 && index < std::int64_t(values.size()) ? values[index] : -1;
   };
-  const std::int64_t loops = at(a.LoopCount, face);
-  const std::int64_t firstLoop = at(a.LoopStart, face);
-  for (std::int64_t l = firstLoop; l < firstLoop + loops; ++l)
+  // Not yet validated: what lies outside of the arrays is left out.
+  const auto range = [&](std::int64_t first, std::int64_t count, std::size_t size) {
+    const auto all = std::int64_t(size);
+    const std::int64_t begin = std::clamp<std::int64_t>(first, 0, all);
+    return std::array<std::int64_t, 2>{ begin,
+      begin + std::clamp<std::int64_t>(count, 0, all - begin) };
+  };
+  const auto loops = range(at(a.LoopStart, face), at(a.LoopCount, face), a.LoopCurveStart.size());
+  for (std::int64_t l = loops[0]; l < loops[1]; ++l)
   {
-    const std::int64_t first = at(a.LoopCurveStart, l);
-    for (std::int64_t c = first; c < first + at(a.LoopCurveCount, l); ++c)
+    const auto curves =
+      range(at(a.LoopCurveStart, l), at(a.LoopCurveCount, l), a.TrimCurveEdgeId.size());
+    for (std::int64_t c = curves[0]; c < curves[1]; ++c)
     {
       const std::int64_t edge = at(a.TrimCurveEdgeId, c);
       f(at(raw.EdgeIds, edge), false);

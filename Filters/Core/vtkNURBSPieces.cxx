@@ -61,6 +61,8 @@ struct Packet
 
 } // namespace
 
+vtkNURBSPieces::vtkNURBSPieces() = default;
+
 vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* outputs)
 {
   const int from = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
@@ -271,7 +273,7 @@ bool vtkNURBSPieces::IsUpToDate(vtkDataObject* input) const
 {
   std::vector<Grid> now;
   this->FindGrids(input, now);
-  const bool same = now.size() == this->Grids.size() &&
+  const bool same = input == this->Input && now.size() == this->Grids.size() &&
     std::equal(now.begin(), now.end(), this->Grids.begin(), [](const Grid& a, const Grid& b) {
       return a.Data == b.Data && a.Time == b.Time && a.Block == b.Block &&
         a.Partition == b.Partition;

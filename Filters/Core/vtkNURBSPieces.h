@@ -46,6 +46,8 @@ class vtkUnstructuredGrid;
 class VTKNURBSFILTERSCORE_EXPORT vtkNURBSPieces
 {
 public:
+  /// Of this process alone.
+  vtkNURBSPieces();
   /// Of a filter's RequestData.
   vtkNURBSPieces(vtkInformation* request, vtkInformationVector* outputs);
   ~vtkNURBSPieces();

@@ -26,7 +26,7 @@ Vec3 ControlCenter(const SurfaceView& surface)
 
 } // namespace
 
-double Viewer::Importance(const Vec3& place) const
+double MeshViewer::Importance(const Vec3& place) const
 {
   const Vec3 way = place - this->Eye;
   const double distance = way.norm();
@@ -38,12 +38,12 @@ double Viewer::Importance(const Vec3& place) const
   return std::max(this->LeastImportance, near * sight);
 }
 
-double DeformingModel::Scale(const Viewer* viewer, const Vec3& place) const
+double DeformingModel::Scale(const MeshViewer* viewer, const Vec3& place) const
 {
   return this->Coarsening / (viewer ? viewer->Importance(place) : 1.0);
 }
 
-void DeformingModel::Adapt(const Viewer* viewer, bool everything, double hysteresis)
+void DeformingModel::Adapt(const MeshViewer* viewer, bool everything, double hysteresis)
 {
   this->ForFaces([&](std::int64_t f) {
     if (everything || this->FaceTouched[f])
@@ -62,7 +62,7 @@ void DeformingModel::Adapt(const Viewer* viewer, bool everything, double hystere
 }
 
 // Pieces and vertices of the edges of faces that changed.
-void DeformingModel::UpdateEdges(const Viewer* viewer, bool adapt)
+void DeformingModel::UpdateEdges(const MeshViewer* viewer, bool adapt)
 {
   const Model& model = this->Data.Data;
   std::vector<char> concerned(this->Edges.size(), 0);
@@ -165,7 +165,7 @@ bool DeformingModel::Honour(const RefinementRequests& requests)
 }
 
 // Edges, cells and triangles, until the zones are within the tolerance, too.
-void DeformingModel::Rebuild(const Viewer* viewer)
+void DeformingModel::Rebuild(const MeshViewer* viewer)
 {
   const bool refine = this->Refines() || this->Making;
   for (int round = 0; round < MaximumRounds; ++round)
@@ -315,7 +315,7 @@ void DeformingModel::ForFaces(const std::function<void(std::int64_t)>& f)
     });
 }
 
-FrameReport DeformingModel::Update(const Model& model, const Viewer* viewer)
+FrameReport DeformingModel::Update(const Model& model, const MeshViewer* viewer)
 {
   Stopwatch watch;
   std::vector<std::int64_t> moved(this->Faces.size(), 0);
@@ -382,7 +382,7 @@ std::int64_t DeformingModel::EstimateTriangles() const
 
 // Coarsens all patches alike, as far as their importance lets them, until the budget is kept; lets the
 // tolerance fall again while there is room.
-void DeformingModel::KeepBudget(const Viewer* viewer)
+void DeformingModel::KeepBudget(const MeshViewer* viewer)
 {
   if (this->Options.TriangleBudget <= 0)
   {

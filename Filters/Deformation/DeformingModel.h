@@ -13,7 +13,7 @@ namespace nurbs
 
 /// Who looks, for section 5: patches count the less, the farther they are from the eye and from the
 /// line of sight.
-struct Viewer
+struct MeshViewer
 {
   Vec3 Eye = Vec3::Zero();
   Vec3 Direction = -Vec3::UnitZ(); ///< Unit: the line of sight.
@@ -77,7 +77,7 @@ public:
   /// Follows the control points and weights of `model`, which is the first one but for them. A frame
   /// with a control point that is not finite, moved by more than LargestMove or has a weight <= 0, or
   /// with all control points of a face in one place, is refused as a whole: the mesh stays.
-  FrameReport Update(const Model& model, const Viewer* viewer = nullptr);
+  FrameReport Update(const Model& model, const MeshViewer* viewer = nullptr);
   /// Makes the faces that are marked anew, whose knots or trims changed, and keeps the others; the edges
   /// between them follow. Control points of those that stay are for the next Update. Returns false, and does nothing, if the models' topologies differ: a new
   /// DeformingModel is called for then. Otherwise FirstFrame tells what it did.
@@ -108,11 +108,11 @@ private:
   void RemoveFaces(const std::vector<char>& marked);
   bool HasOpenPole(const Model& model) const;
   std::string Check(const Model& model) const;
-  void Adapt(const Viewer* viewer, bool everything, double hysteresis);
-  void KeepBudget(const Viewer* viewer);
+  void Adapt(const MeshViewer* viewer, bool everything, double hysteresis);
+  void KeepBudget(const MeshViewer* viewer);
   std::int64_t EstimateTriangles() const;
-  void Rebuild(const Viewer* viewer);
-  void UpdateEdges(const Viewer* viewer, bool adapt);
+  void Rebuild(const MeshViewer* viewer);
+  void UpdateEdges(const MeshViewer* viewer, bool adapt);
   void MakeLoops(std::int32_t face, bool inside);
   bool IsTouched(const DeformingEdge& edge) const;
   bool Honour(const RefinementRequests& requests);
@@ -121,7 +121,7 @@ private:
   void SumErrors();
   void Finish();
   bool Refines() const { return this->Options.Refine && this->Options.FixedDepth < 0; }
-  double Scale(const Viewer* viewer, const Vec3& place) const;
+  double Scale(const MeshViewer* viewer, const Vec3& place) const;
 
   DeformingOptions Options;
   CompletedModel Data;

@@ -39,7 +39,7 @@ double Now()
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-bool IsSame(const nurbs::Viewer& a, const nurbs::Viewer& b)
+bool IsSame(const nurbs::MeshViewer& a, const nurbs::MeshViewer& b)
 {
   return a.Eye == b.Eye && a.Direction == b.Direction && a.Parallel == b.Parallel &&
     a.FullDetail == b.FullDetail && a.SightAngle == b.SightAngle &&
@@ -88,7 +88,7 @@ struct vtkNURBSDeformingTessellator::Leaf
   vtkNURBSDeformingOutput Output;
   std::unique_ptr<nurbs::DeformingModel> Kernel;
   nurbs::FrameReport Report;
-  nurbs::Viewer Viewer; ///< Of the last frame, if there was one.
+  nurbs::MeshViewer Viewer; ///< Of the last frame, if there was one.
   bool HadViewer = false;
   bool HalfDone = false; ///< The kernel is at work on the mesh.
 
@@ -109,7 +109,7 @@ struct vtkNURBSDeformingTessellator::Frame
     Fresh; ///< Of models of another structure; null: it is the same.
   nurbs::DeformingOptions Options;
   std::int64_t Controls = 0; ///< Control points of all models.
-  nurbs::Viewer Viewer;
+  nurbs::MeshViewer Viewer;
   bool HasViewer = false;
   std::vector<std::string> Problems; ///< Why frames were refused.
   std::ostringstream FaceErrors;

@@ -221,9 +221,8 @@ CADDocument LoadCADFile(const std::string& path, const CADProgress& report)
   }
   catch (const Standard_Failure& failure)
   {
-    const char* text = failure.GetMessageString();
-    throw Error("\"" + path + "\" is a broken " + NameOf(document.Format) +
-      " file: " + (text && *text ? text : failure.DynamicType()->Name()));
+    throw Error(
+      "\"" + path + "\" is a broken " + NameOf(document.Format) + " file: " + ReasonOf(failure));
   }
   catch (const std::ios_base::failure&)
   {

@@ -183,7 +183,7 @@ bool WriteStep(
     return false;
   }
   APIHeaderSection_MakeHeader header(writer.ChangeWriter().Model());
-  header.SetName(new TCollection_HAsciiString(fs::path(path).stem().c_str()));
+  header.SetName(new TCollection_HAsciiString(content.Name.c_str()));
   header.SetOriginatingSystem(new TCollection_HAsciiString("vtkNURBS"));
   return writer.Write(path.c_str()) == IFSelect_RetDone;
 }
@@ -237,7 +237,7 @@ bool Write(const CADContent& content, CADFormat format, const std::string& path,
   }
 }
 
-/// Throws unless the file can be opened. An existing file keeps its content for now.
+/// Throws unless the file can be opened. An existing file keeps its content.
 void CheckPath(const std::string& path)
 {
   const bool existed = fs::exists(fs::u8path(path));
@@ -258,14 +258,56 @@ void CheckPath(const std::string& path)
   }
 }
 
-void RemoveFile(const std::string& path)
+/// Where the file is written until it is whole: beside `path`, if that is a plain file or none yet
+/// (a device or a link is written itself). Removes what is left there at the end.
+class Draft
 {
-  std::error_code ignored;
-  if (fs::is_regular_file(fs::symlink_status(fs::u8path(path), ignored))) // No device, no link.
+public:
+  explicit Draft(const std::string& path)
+    : Path(path)
+    , Own(path)
   {
-    fs::remove(fs::u8path(path), ignored);
+    std::error_code ignored;
+    const fs::file_status status = fs::symlink_status(fs::u8path(path), ignored);
+    if (fs::is_regular_file(status) || !fs::exists(status))
+    {
+      const fs::path whole = fs::u8path(path);
+      for (int i = 0; this->Own == path || fs::exists(fs::u8path(this->Own), ignored); ++i)
+      {
+        const std::string name =
+          whole.stem().u8string() + ".part" + std::to_string(i) + whole.extension().u8string();
+        this->Own = (whole.parent_path() / fs::u8path(name)).u8string();
+      }
+    }
   }
-}
+  ~Draft()
+  {
+    std::error_code ignored;
+    if (this->Own != this->Path)
+    {
+      fs::remove(fs::u8path(this->Own), ignored);
+    }
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  const std::string& Get() const { return this->Own; }
+
+  /// Puts it in the place of `path`; returns what went wrong.
+  std::string Keep() const
+  {
+    std::error_code error;
+    if (this->Own != this->Path)
+    {
+      fs::rename(fs::u8path(this->Own), fs::u8path(this->Path), error);
+    }
+    return error ? error.message() : "";
+  }
+
+private:
+  const std::string Path;
+  std::string Own;
+};
 
 /// Writes; returns what went wrong, "" if nothing did.
 std::string TryToWrite(const CADContent& content, CADFormat format, const std::string& path,
@@ -282,9 +324,8 @@ std::string TryToWrite(const CADContent& content, CADFormat format, const std::s
   }
   catch (const Standard_Failure& failure)
   {
-    const char* text = failure.GetMessageString();
     return std::string("OpenCASCADE fails to make ") + NameOf(format) +
-      " of it: " + (text && *text ? text : failure.DynamicType()->Name());
+      " of it: " + ReasonOf(failure);
   }
   catch (const std::exception& failure) // OpenCASCADE's streams throw when a disk is full.
   {
@@ -301,17 +342,18 @@ void SaveCADFile(
   CheckPath(path);
   const CADSession session;
   const Handle(CADProgressIndicator) progress = new CADProgressIndicator(report);
-  std::string problem = TryToWrite(content, format, path, progress->Start());
+  const Draft draft(path);
+  std::string problem = TryToWrite(content, format, draft.Get(), progress->Start());
   if (progress->Stopped())
   {
-    RemoveFile(path);
     throw Error("aborted");
   }
   if (problem.empty())
   {
     try
     {
-      DetectCADFormat(path); // Is it whole?
+      DetectCADFormat(draft.Get()); // Is it whole?
+      problem = draft.Keep();
     }
     catch (const Error&)
     {
@@ -320,7 +362,6 @@ void SaveCADFile(
   }
   if (!problem.empty())
   {
-    RemoveFile(path);
     throw Error("cannot write \"" + path + "\": " + problem);
   }
 }

@@ -44,11 +44,13 @@ struct CADContent
 {
   std::vector<CADPart> Parts;
   std::vector<CADNode> Nodes;
+  std::string Name;                                 ///< Of the file, as its header tells it.
   CADUnit Unit = { "millimetre", "mm", "MM", 1.0 }; ///< Of lengths in the file.
 };
 
 /// Writes a file, and looks whether it is whole. Throws Error, naming the path, if it can't be written;
-/// then no file is left. Stopped by `progress`: throws Error "aborted". Takes its turn with all who
+/// then the file that stood there, if one did, is as it was. Stopped by `progress`: throws Error
+/// "aborted", likewise. Takes its turn with all who
 /// read or write CAD files.
 void SaveCADFile(const CADContent& content, CADFormat format, const std::string& path,
   const CADProgress& progress);

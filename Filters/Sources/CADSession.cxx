@@ -50,6 +50,12 @@ void CADProgressIndicator::Show(const Message_ProgressScope&, const Standard_Boo
   }
 }
 
+std::string ReasonOf(const Standard_Failure& failure)
+{
+  const char* text = failure.GetMessageString();
+  return text && *text ? text : failure.DynamicType()->Name();
+}
+
 Handle(TDocStd_Document) NewCADDocument()
 {
   // Not registered with the application: closed when the last handle goes.

@@ -5,6 +5,7 @@
 
 #include <Message_ProgressIndicator.hxx>
 #include <Message_SequenceOfPrinters.hxx>
+#include <Standard_Failure.hxx>
 #include <TDocStd_Document.hxx>
 
 #include <atomic>
@@ -54,6 +55,9 @@ private:
 
 /// An empty XDE document, which goes when its last handle goes.
 Handle(TDocStd_Document) NewCADDocument();
+
+/// OpenCASCADE's message, or the kind of failure if it has none.
+std::string ReasonOf(const Standard_Failure& failure);
 
 /// A unit of length.
 struct CADUnit

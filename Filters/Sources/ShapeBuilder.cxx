@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeBuilder.h"
 
+#include "CADSession.h"
 #include "EdgeExport.h"
 #include "LoopNesting.h"
 #include "ShapeBodies.h"
@@ -290,6 +291,10 @@ void ShapeMaker::TryFace(std::size_t f)
   {
     this->Result.FaceErrors[f] = std::string("a curve of it can't be written: ") + error.what();
   }
+  catch (const Standard_Failure& failure)
+  {
+    this->Result.FaceErrors[f] = "OpenCASCADE refuses it: " + ReasonOf(failure);
+  }
 }
 
 void ShapeMaker::Count()
@@ -385,15 +390,7 @@ std::string Joined(const std::set<std::string>& words)
   return text;
 }
 
-} // namespace
-
-BuiltShape BuildShape(const Model& model, const std::vector<std::string>& faceErrors,
-  const ShapeOptions& options, const ParallelFor& parallel, const std::atomic<bool>& abort)
-{
-  return ShapeMaker(model, faceErrors, options, parallel, abort).Run();
-}
-
-std::vector<ShapeFault> CheckShape(const BuiltShape& built)
+std::vector<ShapeFault> FindFaults(const BuiltShape& built)
 {
   std::vector<ShapeFault> faults;
   if (built.Shape.IsNull())
@@ -440,6 +437,34 @@ std::vector<ShapeFault> CheckShape(const BuiltShape& built)
     }
   }
   return faults;
+}
+
+/// What OpenCASCADE throws is no std::exception.
+template <class Call>
+auto WithoutFailures(const char* doing, const Call& call)
+{
+  try
+  {
+    return call();
+  }
+  catch (const Standard_Failure& failure)
+  {
+    throw Error(std::string("OpenCASCADE fails ") + doing + ": " + ReasonOf(failure));
+  }
+}
+
+} // namespace
+
+BuiltShape BuildShape(const Model& model, const std::vector<std::string>& faceErrors,
+  const ShapeOptions& options, const ParallelFor& parallel, const std::atomic<bool>& abort)
+{
+  return WithoutFailures("to build the shape",
+    [&] { return ShapeMaker(model, faceErrors, options, parallel, abort).Run(); });
+}
+
+std::vector<ShapeFault> CheckShape(const BuiltShape& built)
+{
+  return WithoutFailures("to check the shape", [&] { return FindFaults(built); });
 }
 
 } // namespace nurbs

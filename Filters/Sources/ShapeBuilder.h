@@ -3,10 +3,11 @@
 /// @brief A trimmed model as a shape of OpenCASCADE: faces sewn to shells and solids.
 ///
 /// Every face keeps its surface (SplineExport), its loops as wires of trim curves, and its
-/// orientation; one of several pieces becomes several faces on one surface. Faces that share an edge of the model share a TopoDS_Edge (EdgeExport tells what its
-/// curve and tolerance are). Faces that hang together so become a shell; a closed shell whose outside
-/// is outside becomes a solid, with the closed shells inside it that are turned inwards as its
-/// cavities. Faces without loops get their natural boundary, and share the sides that coincide.
+/// orientation; one of several pieces becomes several faces on one surface. Faces that share an edge
+/// of the model share a TopoDS_Edge (EdgeExport tells what its curve and tolerance are). Faces that
+/// hang together so become a shell; a closed shell whose outside is outside becomes a solid, with the
+/// closed shells inside it that are turned inwards as its cavities. One that is turned inwards and
+/// lies in no solid stays a shell. Faces without loops get their natural boundary, and share the sides that coincide.
 #pragma once
 
 #include "Model.h"
@@ -44,7 +45,7 @@ struct BuiltShape
 };
 
 /// Builds the faces that `faceErrors` has no word against. Gives up, with a null shape, when `abort`
-/// becomes true.
+/// becomes true. Throws Error where OpenCASCADE fails as a whole.
 BuiltShape BuildShape(const Model& model, const std::vector<std::string>& faceErrors,
   const ShapeOptions& options, const ParallelFor& parallel, const std::atomic<bool>& abort);
 

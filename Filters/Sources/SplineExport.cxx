@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineExport.h"
 
+#include "CADSession.h"
+
 #include <Standard_Failure.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -142,9 +144,7 @@ Knots KnotsOf(const Surface& surface, int dir)
 
 [[noreturn]] void Rethrow(const Standard_Failure& failure)
 {
-  const char* text = failure.GetMessageString();
-  throw Error(std::string("OpenCASCADE has no such spline: ") +
-    (text && *text ? text : failure.DynamicType()->Name()));
+  throw Error("OpenCASCADE has no such spline: " + ReasonOf(failure));
 }
 
 } // namespace

@@ -17,6 +17,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 
 namespace vtkNURBSCADTree
@@ -39,10 +40,13 @@ struct Place
   int DataSet = -1;
 };
 
-/// Where each leaf of a composite is. In a collection the names are those of the data sets.
-std::map<vtkDataObject*, Place> Places(vtkDataObject* input)
+/// Where each leaf of a composite is; several places, in the order of traversal, if it is there
+/// several times. In a collection the names are those of the data sets.
+using LeafPlaces = std::map<vtkDataObject*, std::deque<Place>>;
+
+LeafPlaces Places(vtkDataObject* input)
 {
-  std::map<vtkDataObject*, Place> places;
+  LeafPlaces places;
   if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
   {
     for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
@@ -50,7 +54,8 @@ std::map<vtkDataObject*, Place> Places(vtkDataObject* input)
       const std::string name = collection->HasMetaData(i) ? NameOf(collection->GetMetaData(i)) : "";
       for (unsigned int part = 0; part < collection->GetNumberOfPartitions(i); ++part)
       {
-        places[collection->GetPartitionAsDataObject(i, part)] = { name, static_cast<int>(i) };
+        places[collection->GetPartitionAsDataObject(i, part)].push_back(
+          { name, static_cast<int>(i) });
       }
     }
   }
@@ -60,8 +65,8 @@ std::map<vtkDataObject*, Place> Places(vtkDataObject* input)
     at.TakeReference(composite->NewIterator());
     for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
     {
-      places[at->GetCurrentDataObject()].Name =
-        at->HasCurrentMetaData() ? NameOf(at->GetCurrentMetaData()) : "";
+      places[at->GetCurrentDataObject()].push_back(
+        { at->HasCurrentMetaData() ? NameOf(at->GetCurrentMetaData()) : "", -1 });
     }
   }
   return places;
@@ -225,12 +230,17 @@ std::string Find(vtkDataObject* input, std::vector<Block>& blocks)
 {
   std::vector<vtkNURBSModelPool::Block> found;
   const std::string problem = vtkNURBSModelPool::Find(input, found);
-  const std::map<vtkDataObject*, Place> places = Places(input);
+  LeafPlaces places = Places(input);
   for (const vtkNURBSModelPool::Block& block : found)
   {
-    const auto place = places.find(block.Grid);
-    blocks.push_back({ block.Grid, block.Name, place == places.end() ? "" : place->second.Name,
-      place == places.end() ? -1 : place->second.DataSet });
+    Place place;
+    std::deque<Place>& left = places[block.Grid];
+    if (!left.empty())
+    {
+      place = left.front();
+      left.pop_front();
+    }
+    blocks.push_back({ block.Grid, block.Name, place.Name, place.DataSet });
   }
   return problem;
 }

@@ -6,6 +6,7 @@
 #include "vtkNURBSCADTree.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
+#include "vtkNURBSPieces.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
@@ -72,6 +73,7 @@ std::string FaceLine(
 struct vtkNURBSCADWriter::Work
 {
   nurbs::CADFormat Format = nurbs::CADFormat::STEP;
+  vtkDataObject* Input = nullptr;
   std::vector<vtkNURBSCADTree::Block> Blocks;
   std::vector<double> Scales; // Millimetres a unit of each block.
   std::vector<nurbs::BuiltShape> Shapes;
@@ -97,6 +99,13 @@ bool vtkNURBSCADWriter::Fail(unsigned long code, const std::string& message)
   this->ClearFigures();
   this->SetErrorCode(code);
   vtkErrorMacro(<< message);
+  return false;
+}
+
+// Write() tells by the error code that there is no file.
+bool vtkNURBSCADWriter::Aborted()
+{
+  this->SetErrorCode(vtkErrorCode::UserError);
   return false;
 }
 
@@ -219,7 +228,7 @@ bool vtkNURBSCADWriter::Build(Work& work)
   }
   if (abort)
   {
-    return false;
+    return this->Aborted();
   }
   this->NumberOfFailedFaces = static_cast<vtkIdType>(failures.size());
   const bool some = std::any_of(work.Shapes.begin(), work.Shapes.end(),
@@ -276,6 +285,7 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
 bool vtkNURBSCADWriter::Save(Work& work)
 {
   const std::string stem = std::filesystem::u8path(this->FileName).stem().u8string();
+  work.Content.Name = stem;
   std::vector<std::int64_t> parts(work.Blocks.size(), -1);
   for (std::size_t i = 0; i < work.Blocks.size(); ++i)
   {
@@ -289,7 +299,7 @@ bool vtkNURBSCADWriter::Save(Work& work)
       vtkNURBSCADTree::DescribeFaces(work.Blocks[i].Grid, work.Shapes[i].FaceOf, part);
     }
   }
-  vtkNURBSCADTree::MakeNodes(this->GetInput(), work.Blocks, parts, stem, work.Content);
+  vtkNURBSCADTree::MakeNodes(work.Input, work.Blocks, parts, stem, work.Content);
   try
   {
     nurbs::SaveCADFile(work.Content, work.Format, this->FileName, [this](double done) {
@@ -299,7 +309,7 @@ bool vtkNURBSCADWriter::Save(Work& work)
   }
   catch (const std::exception& problem)
   {
-    return this->GetAbortExecute() ? false
+    return this->GetAbortExecute() ? this->Aborted()
                                    : this->Fail(vtkErrorCode::CannotOpenFileError, problem.what());
   }
   return true;
@@ -313,7 +323,13 @@ void vtkNURBSCADWriter::WriteData()
   {
     return;
   }
-  const std::string problem = vtkNURBSCADTree::Find(this->GetInput(), work.Blocks);
+  vtkNURBSPieces pieces; // Partitions of a block are put together where they are parts of a model.
+  std::string problem;
+  work.Input = pieces.Gather(this->GetInput(), problem);
+  if (problem.empty())
+  {
+    problem = vtkNURBSCADTree::Find(work.Input, work.Blocks);
+  }
   if (!problem.empty())
   {
     this->Fail(vtkErrorCode::UserError, problem);
@@ -324,11 +340,19 @@ void vtkNURBSCADWriter::WriteData()
     this->Fail(vtkErrorCode::UserError, "there is no face to write");
     return;
   }
-  if (!this->FindUnits(work) || !this->Build(work))
+  try
   {
+    if (!this->FindUnits(work) || !this->Build(work))
+    {
+      return;
+    }
+    this->CheckShapes(work);
+  }
+  catch (const std::exception& failure)
+  {
+    this->Fail(vtkErrorCode::UserError, failure.what());
     return;
   }
-  this->CheckShapes(work);
   if (!this->Save(work))
   {
     this->ClearFigures();

@@ -7,8 +7,8 @@
  * the sources give, visible regions, deformed and edited models. Every face is written as the
  * rational B-spline surface that it is, with its trimming loops. Faces that share edges in the model
  * share them in the file and become shells, and closed shells become solids, with cavities where
- * they have some. Faces without loops are written with their natural boundary, and share the sides
- * that coincide.
+ * they have some (a closed shell that is turned inwards and lies in no solid stays a shell). Faces
+ * without loops are written with their natural boundary, and share the sides that coincide.
  *
  * An edge has the model's 3D curve where there is one that fits, and else one that is computed from
  * a trim curve on its surface: exactly along u or v and on planes, otherwise within CurveTolerance.
@@ -85,7 +85,8 @@ public:
   ///@{
   /**
    * What computed edge curves may deviate from their trim curve on its surface, as a part of the
-   * model's diagonal. Default 1e-7; must be positive.
+   * model's diagonal. Default 1e-7; must be positive. Where a curve can't be brought that close, the
+   * edge's tolerance in the file says how close it is.
    */
   vtkSetMacro(CurveTolerance, double);
   vtkGetMacro(CurveTolerance, double);
@@ -111,8 +112,8 @@ public:
 
   ///@{
   /**
-   * Of the last file: faces written; cells that were split into several, and left out; solids, shells that are no part of one, edges
-   * (without poles), of them those that faces share, those whose curve was computed, and edges of
+   * Of the last file: faces written; cells that were split into several, and left out; solids,
+   * shells that are no part of one, edges (without poles), of them those that faces share, those whose curve was computed, and edges of
    * the model that were torn; faces that BRepCheck_Analyzer found fault with; the largest tolerance
    * of an edge, in the model's unit. 0 before the first one and after an error.
    */
@@ -147,6 +148,7 @@ private:
   bool Build(Work& work);
   void CheckShapes(const Work& work);
   bool Save(Work& work);
+  bool Aborted();
   void ClearFigures();
 
   char* FileName = nullptr;

@@ -240,8 +240,9 @@ const double* FaceArea::SpeedIntegral::Before(int i, int j)
   for (int k = int(before.size() / MaxOrder) - 1; k < i; ++k)
   {
     const Series& series = this->At(k, j);
-    before.insert(before.end(), before.end() - MaxOrder, before.end());
+    before.resize(before.size() + MaxOrder);
     double* next = before.data() + before.size() - MaxOrder;
+    std::copy_n(next - MaxOrder, MaxOrder, next);
     for (int m = 0; m < series.Count[1]; ++m)
     {
       next[m] += 2.0 * this->Half(k) * series.C[m * series.Count[0]];

@@ -493,8 +493,16 @@ void FaceCells::JoinUnknown()
 
 bool FaceCells::All(Sight sight) const
 {
-  return std::all_of(this->Sights.begin(), this->Sights.end(),
-    [&](Sight one) { return one == Sight::Outside || one == sight; });
+  bool some = false; // A face too thin for the grid has no cell inside.
+  for (const Sight one : this->Sights)
+  {
+    if (one != Sight::Outside && one != sight)
+    {
+      return false;
+    }
+    some = some || one == sight;
+  }
+  return some;
 }
 
 // The share of a source's trim curve at a vertex of its path.

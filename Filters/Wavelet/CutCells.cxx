@@ -58,9 +58,9 @@ void CutCells::AddLoops()
 {
   std::vector<Vec2> uv;
   std::vector<Vec3> places;
-  for (const std::vector<LoopVertex>& loop : this->Job.Loops)
+  for (const std::vector<LevelLoopVertex>& loop : this->Job.Loops)
   {
-    for (const LoopVertex& v : loop)
+    for (const LevelLoopVertex& v : loop)
     {
       uv.push_back(v.UV);
       places.push_back(v.X);
@@ -68,7 +68,7 @@ void CutCells::AddLoops()
   }
   this->AddEvaluated(uv, &places);
   int first = 0;
-  for (const std::vector<LoopVertex>& loop : this->Job.Loops)
+  for (const std::vector<LevelLoopVertex>& loop : this->Job.Loops)
   {
     const int n = int(loop.size());
     for (int k = 0; k < n; ++k)

@@ -25,7 +25,7 @@ protected:
   struct Segment
   {
     int A, B; ///< Vertices of the mesh.
-    const LoopVertex* Source;
+    const LevelLoopVertex* Source;
     int Side;      ///< Of the box, that it lies on; -1: none.
     bool Consumed; ///< It is a kept leaf's side.
   };

@@ -390,7 +390,7 @@ private:
 
   void RequestSegment(const Segment& segment)
   {
-    const LoopVertex& v = *segment.Source;
+    const LevelLoopVertex& v = *segment.Source;
     if (v.Edge >= 0 && v.Last > v.First + 1)
     {
       this->Requests.Segments.push_back({ v.Edge, { v.First, v.Last } });
@@ -402,7 +402,7 @@ private:
   {
     for (const Segment& segment : this->Segments)
     {
-      const LoopVertex& v = *segment.Source;
+      const LevelLoopVertex& v = *segment.Source;
       if (v.Edge < 0 || v.OnSide)
       {
         continue;

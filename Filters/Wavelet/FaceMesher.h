@@ -36,7 +36,7 @@ struct WaveletMesh
 };
 
 /// A vertex of a face's loop and the segment that starts there.
-struct LoopVertex
+struct LevelLoopVertex
 {
   Vec2 UV;
   Vec3 X;
@@ -68,7 +68,7 @@ struct FaceMeshJob
   std::vector<Vec3> Samples;
   std::vector<Eigen::Vector3f> Normals;
   std::vector<GridLeaf> Leaves; ///< They cover the grid.
-  std::vector<std::vector<LoopVertex>> Loops;
+  std::vector<std::vector<LevelLoopVertex>> Loops;
   double Limit = 1e300; ///< Errors above it ask for refinement.
 };
 

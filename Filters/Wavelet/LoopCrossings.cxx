@@ -12,8 +12,8 @@ namespace
 
 struct Side
 {
-  const LoopVertex* A;
-  const LoopVertex* B;
+  const LevelLoopVertex* A;
+  const LevelLoopVertex* B;
   double Low, High; // In u.
 };
 
@@ -37,7 +37,7 @@ bool Cross(const Side& s, const Side& t)
 }
 
 // A polygon of fewer than three places, or without area.
-bool IsCollapsed(const std::vector<LoopVertex>& loop)
+bool IsCollapsed(const std::vector<LevelLoopVertex>& loop)
 {
   double area = 0.0;
   Box2 box;
@@ -57,25 +57,26 @@ bool IsCollapsed(const std::vector<LoopVertex>& loop)
   return places.size() < 3 || std::abs(area) <= 1e-9 * size[0] * size[1];
 }
 
-bool CanSplit(const LoopVertex& v)
+bool CanSplit(const LevelLoopVertex& v)
 {
   return v.Edge >= 0 && v.Last > v.First + 1;
 }
 
 } // namespace
 
-std::vector<LoopVertex> CrossingSegments(const std::vector<std::vector<LoopVertex>>& loops)
+std::vector<LevelLoopVertex> CrossingSegments(
+  const std::vector<std::vector<LevelLoopVertex>>& loops)
 {
-  std::vector<LoopVertex> out;
+  std::vector<LevelLoopVertex> out;
   std::vector<Side> sides;
   bool inside = false; // Some segment leaves the sides of the box.
-  for (const std::vector<LoopVertex>& loop : loops)
+  for (const std::vector<LevelLoopVertex>& loop : loops)
   {
     const bool collapsed = IsCollapsed(loop);
     for (std::size_t k = 0; k < loop.size(); ++k)
     {
-      const LoopVertex& a = loop[k];
-      const LoopVertex& b = loop[(k + 1) % loop.size()];
+      const LevelLoopVertex& a = loop[k];
+      const LevelLoopVertex& b = loop[(k + 1) % loop.size()];
       sides.push_back({ &a, &b, std::min(a.UV[0], b.UV[0]), std::max(a.UV[0], b.UV[0]) });
       inside = inside || !a.OnSide;
       if (collapsed && CanSplit(a))
@@ -95,7 +96,7 @@ std::vector<LoopVertex> CrossingSegments(const std::vector<std::vector<LoopVerte
     {
       if ((CanSplit(*sides[i].A) || CanSplit(*sides[j].A)) && Cross(sides[i], sides[j]))
       {
-        for (const LoopVertex* v : { sides[i].A, sides[j].A })
+        for (const LevelLoopVertex* v : { sides[i].A, sides[j].A })
         {
           if (CanSplit(*v))
           {

@@ -9,6 +9,7 @@ namespace nurbs
 {
 
 /// The vertices whose segments cross others, or belong to loops that collapsed, and can be finer.
-std::vector<LoopVertex> CrossingSegments(const std::vector<std::vector<LoopVertex>>& loops);
+std::vector<LevelLoopVertex> CrossingSegments(
+  const std::vector<std::vector<LevelLoopVertex>>& loops);
 
 } // namespace nurbs

@@ -140,7 +140,7 @@ void WaveletModel::Uncross(WaveletSelection& selection) const
       {
         if (this->Faces[f] && check[f])
         {
-          for (const LoopVertex& v : CrossingSegments(this->Loops(f, selection)))
+          for (const LevelLoopVertex& v : CrossingSegments(this->Loops(f, selection)))
           {
             requests[f].Segments.push_back({ v.Edge, { v.First, v.Last } });
           }
@@ -170,30 +170,30 @@ void WaveletModel::Uncross(WaveletSelection& selection) const
   }
 }
 
-std::vector<std::vector<LoopVertex>> WaveletModel::Loops(
+std::vector<std::vector<LevelLoopVertex>> WaveletModel::Loops(
   std::int64_t f, const WaveletSelection& selection) const
 {
   const Model& data = this->Data.Data;
   const WaveletFace& face = *this->Faces[f];
   const Face& source = data.Faces[f];
-  std::vector<std::vector<LoopVertex>> out;
+  std::vector<std::vector<LevelLoopVertex>> out;
   for (std::int64_t l = source.FirstLoop; l < source.FirstLoop + source.LoopCount; ++l)
   {
-    std::vector<LoopVertex> loop;
+    std::vector<LevelLoopVertex> loop;
     const TrimLoop& curves = data.Loops[l];
     for (std::int64_t c = curves.FirstCurve; c < curves.FirstCurve + curves.CurveCount; ++c)
     {
       this->AppendCurve(c, f, selection, loop);
     }
-    const auto same = [&](const LoopVertex& a, const LoopVertex& b) {
+    const auto same = [&](const LevelLoopVertex& a, const LevelLoopVertex& b) {
       return AreNear(face, a.UV, b.UV, a.X == b.X ? NearCorner : SameCorner);
     };
     if (loop.size() > 1 && same(loop.back(), loop.front()) && loop.back().Edge < 0)
     {
       loop.pop_back();
     }
-    std::vector<LoopVertex> distinct;
-    for (const LoopVertex& v : loop)
+    std::vector<LevelLoopVertex> distinct;
+    for (const LevelLoopVertex& v : loop)
     {
       if (!distinct.empty() && distinct.back().UV == v.UV)
       {
@@ -219,12 +219,12 @@ std::vector<std::vector<LoopVertex>> WaveletModel::Loops(
 // Appends a trim curve's vertices in the loop's direction; its first one replaces the last there
 // is.
 void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
-  const WaveletSelection& selection, std::vector<LoopVertex>& loop) const
+  const WaveletSelection& selection, std::vector<LevelLoopVertex>& loop) const
 {
   const TrimCurve& curve = this->Data.Data.TrimCurves[index];
   const WaveletEdge& edge = *this->Edges[curve.Edge];
   const WaveletFace& face = *this->Faces[f];
-  std::vector<LoopVertex> part;
+  std::vector<LevelLoopVertex> part;
   if (edge.IsPole())
   {
     this->AppendPole(index, f, selection, part);
@@ -264,7 +264,7 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
     {
       const int i = curve.Reversed ? n - 1 - k : k;
       const int next = curve.Reversed ? i - 1 : i + 1;
-      LoopVertex v;
+      LevelLoopVertex v;
       v.UV = haar ? uv[i] : use.UV[lines[i]];
       v.X = haar ? points[i] : edge.Points()[lines[i]];
       v.OnSide = use.Side >= 0;
@@ -297,7 +297,7 @@ void WaveletModel::AppendCurve(std::int64_t index, std::int64_t f,
 
 // A pole has one point, but as many parameters as the cells along it have corners.
 void WaveletModel::AppendPole(std::int64_t index, std::int64_t f, const WaveletSelection& selection,
-  std::vector<LoopVertex>& part) const
+  std::vector<LevelLoopVertex>& part) const
 {
   const Model& data = this->Data.Data;
   const WaveletFace& face = *this->Faces[f];
@@ -309,7 +309,7 @@ void WaveletModel::AppendPole(std::int64_t index, std::int64_t f, const WaveletS
   {
     return;
   }
-  LoopVertex v;
+  LevelLoopVertex v;
   v.X = data.Vertices[data.Edges[curve.Edge].Vertex[0]];
   v.OnSide = true;
   v.UV = a;

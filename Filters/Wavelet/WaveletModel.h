@@ -83,12 +83,12 @@ private:
   WaveletMeshes Mesh(WaveletSelection& selection, double limit) const;
   void ShareLines(WaveletSelection& selection) const;
   void Uncross(WaveletSelection& selection) const;
-  std::vector<std::vector<LoopVertex>> Loops(
+  std::vector<std::vector<LevelLoopVertex>> Loops(
     std::int64_t face, const WaveletSelection& selection) const;
   void AppendCurve(std::int64_t curve, std::int64_t face, const WaveletSelection& selection,
-    std::vector<LoopVertex>& loop) const;
+    std::vector<LevelLoopVertex>& loop) const;
   void AppendPole(std::int64_t curve, std::int64_t face, const WaveletSelection& selection,
-    std::vector<LoopVertex>& part) const;
+    std::vector<LevelLoopVertex>& part) const;
   FaceMeshJob Job(std::int64_t face, const WaveletSelection& selection, double limit) const;
 
   WaveletOptions Options;

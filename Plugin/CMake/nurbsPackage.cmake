@@ -21,6 +21,7 @@ if (TARGET NURBS)
   configure_file("${debian}/ParaView.ini.in" "${CMAKE_BINARY_DIR}/ParaView${ParaView_VERSION}.ini" @ONLY)
   install(FILES "${CMAKE_BINARY_DIR}/ParaView${ParaView_VERSION}.ini"
     DESTINATION /etc/xdg/ParaView COMPONENT runtime)
+  file(WRITE "${CMAKE_BINARY_DIR}/conffiles" "/etc/xdg/ParaView/ParaView${ParaView_VERSION}.ini\n")
 endif ()
 
 set(CPACK_GENERATOR DEB)
@@ -59,6 +60,9 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${vtk_python}, python3 (>= ${python_mi
 python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~), libgl1-mesa-dri")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "occt-misc, python3-numpy")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${debian}/prerm")
+if (TARGET NURBS)
+  list(APPEND CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/conffiles")
+endif ()
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME vtknurbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

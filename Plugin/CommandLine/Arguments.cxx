@@ -467,7 +467,7 @@ void AddConvert(CLI::App& app, Arguments& arguments)
       "how far apart faces may be that share an edge, as a part of the model's diagonal; default "
       "1e-4")
     ->type_name("G")
-    ->check(Positive());
+    ->check(CLI::NonNegativeNumber);
   command->add_flag(
     "--strict", arguments.Strict, "return 3 if a face failed or is not valid, or an edge is torn");
   command->group("Commands");

@@ -17,6 +17,10 @@ EXACT_CHORD = "1e-5"  # Between their exact curves and the polylines that are ju
 WHO = ("exact", "polygonal", "ours")
 
 
+def _without_folder(problem, file):
+    return problem and problem.replace(file, os.path.basename(file))
+
+
 def check(file, view, options, *lines):
     """Judges lines of a .vtp, or ours."""
     command = [bench.program("HiddenLinesCheck"), file, *lines, "--view=" + view]
@@ -65,7 +69,7 @@ def table(report, rows, judged):
     cells = []
     for file, view, done in rows:
         row = [os.path.basename(file), view, done["ours"].get("faces")]
-        row += [done[who].get("seconds", done[who].get("error")) for who in WHO]
+        row += [done[who].get("seconds", _without_folder(done[who].get("error"), file)) for who in WHO]
         row += [ratio(done[who].get("seconds"), done["ours"].get("seconds")) for who in WHO[:2]]
         for key in ("wrong_visible", "wrong_hidden", "undecided") if judged else ():
             row += [lengths(done[who], key) for who in WHO]

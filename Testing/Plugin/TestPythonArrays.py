@@ -5,6 +5,7 @@ import unittest
 import warnings
 
 import numpy as np
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkObject
 from vtkmodules.vtkCommonDataModel import vtkPartitionedDataSetCollection, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
@@ -259,6 +260,29 @@ class Refusals(unittest.TestCase):
         broken.GetPoints().Modified()
         with self.assertRaisesRegex(ValueError, "cell 0: control point 5 is not finite"):
             get_surface(broken, 0)
+
+    def test_missing_arrays(self):
+        model = vtknurbs.vtkNURBSShapeSource()
+        model.Update()
+        evaluator = vtknurbs.vtkNURBSFaceEvaluator()
+        evaluator.SetModel(model.GetOutput())
+        uv = vtkDoubleArray()
+        uv.SetNumberOfComponents(2)
+        uv.InsertNextTuple2(0.5, 0.5)
+        for call in (
+            lambda: evaluator.Evaluate(0, uv, 0, None),
+            lambda: evaluator.EvaluateNormals(0, uv, None),
+            lambda: evaluator.EvaluateInside(0, uv, None),
+            lambda: evaluator.EvaluateNormals(0, None, vtkDoubleArray()),
+            lambda: evaluator.GetKnots(0, 0, None),
+            lambda: evaluator.GetControlPoints(0, None),
+            lambda: evaluator.GetWeights(0, None),
+            lambda: evaluator.GetTrimCurve(0, 0, 0, None, None),
+        ):
+            vtkObject.GlobalWarningDisplayOff()
+            self.assertFalse(call())
+            vtkObject.GlobalWarningDisplayOn()
+            self.assertTrue(evaluator.GetErrorMessage())
 
 
 class Evaluation(unittest.TestCase):

@@ -132,18 +132,24 @@ vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
   return origin;
 }
 
-// A selection of cells as something that ParaView delivers: a point (flat index of the block, or -1;
-// index of the cell; 0) each.
+// The cells of a selection as something that ParaView delivers: a point (flat index of the block, or
+// -1; index of the cell; 0) each. Selected points are no faces.
 vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (unsigned int n = 0; n < selection->GetNumberOfNodes(); ++n)
   {
-    vtkInformation* about = selection->GetNode(n)->GetProperties();
+    vtkSelectionNode* node = selection->GetNode(n);
+    if (node->GetFieldType() != vtkSelectionNode::CELL ||
+      node->GetContentType() != vtkSelectionNode::INDICES)
+    {
+      continue;
+    }
+    vtkInformation* about = node->GetProperties();
     const bool hasBlock = about->Has(vtkSelectionNode::COMPOSITE_INDEX());
     const int block = hasBlock ? about->Get(vtkSelectionNode::COMPOSITE_INDEX()) : -1;
-    auto* ids = vtkDataArray::SafeDownCast(selection->GetNode(n)->GetSelectionList());
+    auto* ids = vtkDataArray::SafeDownCast(node->GetSelectionList());
     const int last = ids ? ids->GetNumberOfComponents() - 1 : 0;
     for (vtkIdType id = 0; ids && id < ids->GetNumberOfTuples(); ++id)
     {

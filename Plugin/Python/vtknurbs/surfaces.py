@@ -234,7 +234,7 @@ def _add(builder: vtkNURBSModelBuilder, surface: Surface) -> None:
     if surface.face_id is not None:
         _check(builder, builder.SetFaceId(int(surface.face_id)))
     builder.SetFaceReversed(bool(surface.reversed))
-    for index, loop in enumerate(surface.trims):
+    for index, loop in enumerate(surface.trims or ()):
         builder.BeginLoop()
         try:
             _add_loop(builder, loop)

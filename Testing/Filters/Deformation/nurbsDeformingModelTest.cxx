@@ -190,7 +190,7 @@ TEST(DeformingModel, TakesAnyEdits)
           }
         }
       }
-      nurbs::Viewer viewer;
+      nurbs::MeshViewer viewer;
       viewer.Eye = Vec3(5.0, 5.0, 12.0);
       viewer.FullDetail = 8.0;
       const bool watched = frame % 40 >= 20;
@@ -414,7 +414,7 @@ TEST(DeformingModel, LooksWhereTheViewerDoes)
   model.Make();
   nurbs::MeshVectors mesh;
   nurbs::DeformingModel deforming(model.Model, model.Errors(), Options(0.002), mesh);
-  nurbs::Viewer viewer;
+  nurbs::MeshViewer viewer;
   viewer.Eye = Vec3(-2.0, 2.0, 2.0);
   viewer.Direction = Vec3(1.0, 0.0, -0.4).normalized();
   viewer.FullDetail = 3.0;

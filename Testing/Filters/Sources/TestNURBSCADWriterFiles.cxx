@@ -18,7 +18,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 
 TEST(CADWriterFiles, UnitsAreHonoured)
 {
@@ -147,7 +149,50 @@ TEST(CADWriterFiles, ColoursComeBackFromIGES)
   }
 }
 
-TEST(CADWriterFiles, ProgressGrowsAndAbortLeavesNoFile)
+TEST(CADWriterFiles, PiecesFitTogether)
+{
+  vtkNew<vtkPartitionedDataSetCollection> pieces;
+  pieces->SetNumberOfPartitionedDataSets(1);
+  vtkNew<vtkNURBSShapeSource> source;
+  source->SetShapeToCylinder();
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    source->UpdatePiece(piece, 2, 0);
+    vtkNew<vtkUnstructuredGrid> copy;
+    copy->DeepCopy(source->GetOutput());
+    ASSERT_GT(copy->GetNumberOfCells(), 0);
+    pieces->SetPartition(0, piece, copy);
+  }
+  const TopoDS_Shape whole = ReadShape(Write(Shape(vtkNURBSShapeSource::CYLINDER), "whole.step"));
+  const TopoDS_Shape parted = ReadShape(Write(pieces, "pieces.step"));
+  EXPECT_EQ(CountOf(whole, TopAbs_SOLID), 1);
+  EXPECT_EQ(CountOf(parted, TopAbs_SOLID), 1);
+  EXPECT_EQ(SharedEdges(parted), SharedEdges(whole));
+}
+
+TEST(CADWriterFiles, OneGridInTwoPlaces)
+{
+  const auto part = Shape(vtkNURBSShapeSource::CYLINDER);
+  vtkNew<vtkPartitionedDataSetCollection> both;
+  both->SetNumberOfPartitionedDataSets(2);
+  const char* names[] = { "left", "right" };
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    both->SetPartition(i, 0, part);
+    both->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), names[i]);
+  }
+  vtkNew<vtkNURBSCADReader> reader;
+  reader->SetFileName(Write(both, "both.step").c_str());
+  reader->Update();
+  auto* read = vtkPartitionedDataSetCollection::SafeDownCast(reader->GetOutputDataObject(0));
+  ASSERT_EQ(read->GetNumberOfPartitionedDataSets(), 2u);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    EXPECT_STREQ(read->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()), names[i]);
+  }
+}
+
+TEST(CADWriterFiles, ProgressGrows)
 {
   vtkNew<vtkNURBSCADWriter> writer;
   std::vector<double> seen;
@@ -162,21 +207,48 @@ TEST(CADWriterFiles, ProgressGrowsAndAbortLeavesNoFile)
   EXPECT_GT(seen.size(), 5u);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
+}
 
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*) {
-    static_cast<vtkNURBSCADWriter*>(caller)->SetAbortExecute(1);
-  });
-  writer->AddObserver(vtkCommand::ProgressEvent, stop);
-  vtkNew<MessageKeeper> keeper;
-  writer->AddObserver(vtkCommand::ErrorEvent, keeper);
-  const std::string path = OutputPath("aborted.step");
-  std::filesystem::remove(path);
-  writer->SetFileName(path.c_str());
-  writer->Write();
-  EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_EQ(keeper->Text, "");
-  EXPECT_EQ(writer->GetNumberOfFaces(), 0);
+TEST(CADWriterFiles, AbortLeavesWhatWasThere)
+{
+  const auto model = ReadOne("/usr/share/opencascade/data/step/screw.step");
+  const std::string folder = OutputPath("aborted");
+  const std::string path = folder + "/model.step";
+  for (const double part : { 0.0, 0.7 }) // While shapes are built, and while the file is written.
+  {
+    for (const bool exists : { false, true })
+    {
+      std::filesystem::remove_all(folder);
+      std::filesystem::create_directory(folder);
+      if (exists)
+      {
+        std::ofstream(path) << "precious";
+      }
+      vtkNew<vtkNURBSCADWriter> writer;
+      double until = part;
+      vtkNew<vtkCallbackCommand> stop;
+      stop->SetClientData(&until);
+      stop->SetCallback([](vtkObject* caller, unsigned long, void* client, void* amount) {
+        if (*static_cast<const double*>(amount) >= *static_cast<const double*>(client))
+        {
+          static_cast<vtkNURBSCADWriter*>(caller)->SetAbortExecute(1);
+        }
+      });
+      writer->AddObserver(vtkCommand::ProgressEvent, stop);
+      vtkNew<MessageKeeper> keeper;
+      writer->AddObserver(vtkCommand::ErrorEvent, keeper);
+      writer->SetInputDataObject(model);
+      writer->SetFileName(path.c_str());
+      EXPECT_FALSE(writer->Write());
+      EXPECT_EQ(keeper->Text, "");
+      EXPECT_EQ(writer->GetNumberOfFaces(), 0);
+      std::string content;
+      std::getline(std::ifstream(path), content);
+      EXPECT_EQ(content, exists ? "precious" : "");
+      const auto files = std::filesystem::directory_iterator(folder);
+      EXPECT_EQ(std::distance(begin(files), end(files)), exists ? 1 : 0);
+    }
+  }
 }
 
 TEST(BadCADWriting, EachGivesOneClearError)
