@@ -100,6 +100,19 @@ void WarnOfLostFaces(const Handle(XSControl_WorkSession) & session, CADDocument&
   }
 }
 
+/// Some entity could not be read, or refers to one that is not there.
+bool HasBrokenEntity(const Handle(Interface_InterfaceModel) & model)
+{
+  for (int i = 1; !model.IsNull() && i <= model->NbEntities(); ++i)
+  {
+    if (model->IsErrorEntity(i))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDocument& document)
 {
   STEPCAFControl_Reader reader;
@@ -111,8 +124,10 @@ void LoadStep(const std::string& path, const Message_ProgressRange& range, CADDo
   reader.SetGDTMode(false);
   reader.SetMatMode(false);
   reader.SetViewMode(false);
-  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   CheckRead(reader.ReadFile(path.c_str()), path, document.Format);
+  // OpenCASCADE looks for names of faces without end where an entity is missing.
+  Interface_Static::SetIVal(
+    "read.stepcaf.subshapes.name", HasBrokenEntity(reader.ChangeReader().WS()->Model()) ? 0 : 1);
   TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
   reader.ChangeReader().FileUnits(lengths, angles, solidAngles);
   if (!lengths.IsEmpty())
