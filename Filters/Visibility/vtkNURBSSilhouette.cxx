@@ -103,41 +103,8 @@ void vtkNURBSSilhouette::ClearResults()
   this->ClearCounts();
 }
 
-int vtkNURBSSilhouette::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkNURBSSilhouette::FillOutput(Work& work, vtkDataObject* whole, vtkDataObject* output)
 {
-  const double start = Now();
-  this->ClearResults();
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs);
-  vtkNURBSModelPool::CopyTree(input, output);
-  const vtkNURBSParallelScope parallel;
-  Work work;
-  vtkNURBSPieces pieces(request, outputs);
-  vtkDataObject* whole = input;
-  try
-  {
-    std::string problem = this->CheckOptions();
-    whole = problem.empty() ? pieces.Gather(input, problem) : input;
-    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
-    if (!problem.empty())
-    {
-      throw nurbs::Error(problem);
-    }
-    this->Make(work);
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro(<< problem.what());
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  if (work.Result.Aborted)
-  {
-    return 1;
-  }
-  this->Summarize(work);
   vtkNURBSModelPool::CopyTree(whole, output);
   const std::vector<vtkPolyData*> leaves = work.Pool.MakeLeaves(whole, output);
   for (std::size_t k = 0; k < leaves.size(); ++k)
@@ -152,10 +119,51 @@ int vtkNURBSSilhouette::RequestData(
     this->NumberOfLines += leaves[k]->GetNumberOfLines();
     this->NumberOfPoints += leaves[k]->GetNumberOfPoints();
   }
-  pieces.Keep(output);
-  this->Seconds = Now() - start;
-  this->UpdateProgress(1.0);
-  return 1;
+}
+
+int vtkNURBSSilhouette::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const double start = Now();
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const vtkNURBSParallelScope parallel;
+  vtkNURBSPieces pieces(request, outputs);
+  Work work;
+  std::string problem;
+  const auto outcome = pieces.Run(
+    [&]() {
+      vtkNURBSPieces::ThrowIf(this->CheckOptions());
+      vtkDataObject* whole = pieces.Gather(input);
+      vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
+      this->Make(work);
+      if (work.Result.Aborted)
+      {
+        return false;
+      }
+      this->Summarize(work);
+      this->FillOutput(work, whole, output);
+      pieces.Keep(output);
+      return true;
+    },
+    problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    this->Seconds = Now() - start;
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->ClearResults();
+  vtkNURBSModelPool::CopyTree(input, output);
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSSilhouette::PrintSelf(ostream& os, vtkIndent indent)

@@ -176,41 +176,46 @@ int vtkNURBSVisibleRegions::RequestData(
   const double start = Now();
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
-  }
   const vtkNURBSParallelScope parallel;
-  Work work;
   vtkNURBSPieces pieces(request, outputs);
-  try
-  {
-    std::string problem = this->CheckOptions();
-    vtkDataObject* whole = problem.empty() ? pieces.Gather(input, problem) : input;
-    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
-    if (!problem.empty())
-    {
-      throw nurbs::Error(problem);
-    }
-    this->Make(work);
-    if (!work.Result.Aborted && !this->GetAbortExecute())
-    {
+  Work work;
+  std::string problem;
+  const auto outcome = pieces.Run(
+    [&]() {
+      vtkNURBSPieces::ThrowIf(this->CheckOptions());
+      vtkDataObject* whole = pieces.Gather(input);
+      vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
+      this->Make(work);
+      if (work.Result.Aborted || this->GetAbortExecute())
+      {
+        return false;
+      }
       this->Summarize(work);
       this->FillOutputs(work, whole, outputs);
       pieces.Keep(vtkDataObject::GetData(outputs, 0));
       pieces.Keep(vtkDataObject::GetData(outputs, 1));
-      this->Seconds = Now() - start;
-      this->UpdateProgress(1.0);
-    }
-  }
-  catch (const std::exception& problem)
+      return true;
+    },
+    problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
   {
-    vtkErrorMacro(<< problem.what());
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
+    this->Seconds = Now() - start;
+    this->UpdateProgress(1.0);
+    return 1;
   }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  return 1;
+  this->ClearResults();
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
+  }
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)
