@@ -107,6 +107,7 @@ vtkNURBSPieces::Outcome vtkNURBSPieces::Run(
     std::string said;
     try
     {
+      ThrowIf(this->HasInput ? "" : "the input could not be made");
       own = work() ? DONE : ABORTED;
     }
     catch (const std::exception& failure)

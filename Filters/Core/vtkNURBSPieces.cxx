@@ -57,6 +57,8 @@ struct Packet
 
 } // namespace
 
+vtkInformationKeyMacro(vtkNURBSPieces, NO_INPUT, Integer);
+
 vtkNURBSPieces::vtkNURBSPieces() = default;
 
 vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* outputs)
@@ -73,6 +75,7 @@ vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* ou
   {
     this->Controller = all;
     this->Rank = all->GetLocalProcessId();
+    this->HasInput = !request->Has(NO_INPUT());
   }
 }
 
@@ -88,12 +91,17 @@ bool vtkNURBSPieces::IsPieceAsked(vtkInformation* output, int& piece, int& piece
   return pieces > 1;
 }
 
-bool vtkNURBSPieces::IsPiece(vtkDataObject* data)
+bool vtkNURBSPieces::HasOtherProcesses()
 {
   vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
-  const int processes = all ? all->GetNumberOfProcesses() : 1;
-  return data && processes > 1 &&
-    data->GetInformation()->Get(vtkDataObject::DATA_NUMBER_OF_PIECES()) == processes;
+  return all && all->GetNumberOfProcesses() > 1;
+}
+
+bool vtkNURBSPieces::IsPiece(vtkDataObject* data)
+{
+  return data && HasOtherProcesses() &&
+    data->GetInformation()->Get(vtkDataObject::DATA_NUMBER_OF_PIECES()) ==
+    vtkMultiProcessController::GetGlobalController()->GetNumberOfProcesses();
 }
 
 void vtkNURBSPieces::FindGrids(vtkDataObject* input, std::vector<Grid>& grids) const

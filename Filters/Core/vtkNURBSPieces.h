@@ -47,6 +47,7 @@ class vtkDataObject;
 class vtkDataSetAttributes;
 class vtkIdTypeArray;
 class vtkInformation;
+class vtkInformationIntegerKey;
 class vtkInformationVector;
 class vtkMultiProcessController;
 class vtkPolyData;
@@ -66,6 +67,10 @@ public:
   /// The piece that a source is asked for, and of how many; returns false if it is all.
   static bool IsPieceAsked(vtkInformation* output, int& piece, int& pieces);
 
+  /// Marks a request for data whose input could not be made: Run fails, and tells the others.
+  static vtkInformationIntegerKey* NO_INPUT();
+  /// True if there are other processes at all.
+  static bool HasOtherProcesses();
   /// True if data are what one of several processes has of a model.
   static bool IsPiece(vtkDataObject* data);
 
@@ -173,6 +178,7 @@ private:
 
   vtkMultiProcessController* Controller = nullptr;
   int Rank = 0;
+  bool HasInput = true;
   vtkDataObject* Input = nullptr;
   std::vector<Grid> Grids;              ///< This process's.
   vtkSmartPointer<vtkDataObject> Whole; ///< Null: the input is used as it is.

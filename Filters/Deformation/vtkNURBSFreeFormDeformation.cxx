@@ -353,9 +353,11 @@ int vtkNURBSFreeFormDeformation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (vtkNURBSPieces(request, outputs).GetRank() > 0)
+  const vtkNURBSPieces pieces(request, outputs);
+  if (pieces.GetRank() > 0 || (pieces.IsParallel() && this->HasFailed))
   {
-    // The first process has the lattice. Who is asked for more than he makes would be asked again.
+    // The first process has the lattice. Who is asked for more than he makes would be asked again, and
+    // wait for the others, who are not.
     static const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
     outputs->GetInformationObject(LatticePort)->Set(Pipeline::UPDATE_EXTENT(), nothing, 6);
   }
@@ -487,7 +489,8 @@ int vtkNURBSFreeFormDeformation::RequestData(
     problem);
   this->SetErrorCode(
     outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
-  if (outcome == vtkNURBSPieces::DONE)
+  this->HasFailed = outcome != vtkNURBSPieces::DONE;
+  if (!this->HasFailed)
   {
     return 1;
   }

@@ -64,8 +64,22 @@ broken = {
 }
 for what, script in broken.items():
     model = changed(car, script)
-    for name in FILTERS:
+    for name in FILTERS if what in ("bad face", "no model") else ("NURBSTessellator", "NURBSSilhouette"):
         note("%s, %s" % (what, name), getattr(simple, name)(Input=model))
+
+# A source that fails in one process, which so does not call the filter behind it.
+def lacking():
+    return simple.NURBSShapeSource(Shape="Plate", PlateHoles=[-1 if fails else 4, 3])
+
+
+for name in FILTERS:
+    note("no input, " + name, getattr(simple, name)(Input=lacking()))
+chain = simple.NURBSRefinement(Input=simple.Transform(Input=lacking()))
+chain = simple.NURBSTessellator(Input=chain)
+note("no input, far", chain)
+note("nothing, again", chain)
+chain.Tolerance = 1e-4
+note("nothing, once more", chain)
 
 # A failure between two exchanges, and an end between them.
 wrong = dict(ToleranceMode="A length", AbsoluteTolerance=-1.0 if fails else 0.01)
