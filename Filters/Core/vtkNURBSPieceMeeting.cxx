@@ -206,6 +206,18 @@ std::vector<std::vector<char>> vtkNURBSPieces::Exchange(const std::vector<char>&
   return all;
 }
 
+nurbs::WorkShare vtkNURBSPieces::GetShare() const
+{
+  nurbs::WorkShare share;
+  if (this->Controller)
+  {
+    share.Process = this->Rank;
+    share.Processes = this->Controller->GetNumberOfProcesses();
+    share.Exchange = [this](const std::vector<char>& own) { return this->Exchange(own); };
+  }
+  return share;
+}
+
 void vtkNURBSPieces::Join(std::vector<std::string>& lines) const
 {
   std::vector<char> message;

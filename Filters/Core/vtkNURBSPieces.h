@@ -32,6 +32,7 @@
 #define vtkNURBSPieces_h
 
 #include "Types.h"
+#include "WorkShare.h"
 #include "vtkNURBSFiltersCoreModule.h" // For export macro
 #include "vtkNURBSModelView.h"
 #include "vtkSmartPointer.h"
@@ -76,6 +77,8 @@ public:
 
   /// True if other processes work on the same request.
   bool IsParallel() const { return this->Controller != nullptr; }
+  /// How loops over what was gathered are divided among the processes.
+  nurbs::WorkShare GetShare() const;
   /// The number of this process among them; 0 if there are no others.
   int GetRank() const { return this->Rank; }
 

@@ -21,6 +21,10 @@ vtkStandardNewMacro(vtkNURBSSilhouette);
 
 struct vtkNURBSSilhouette::Work
 {
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
   vtkNURBSModelPool Pool;
   nurbs::SilhouetteOptions Options;
   nurbs::Silhouettes Result;
@@ -48,8 +52,10 @@ void vtkNURBSSilhouette::Make(Work& work)
   std::copy(std::begin(kinds), std::end(kinds), options.Kinds);
   options.Parts = PartsOf(pool);
   options.Parallel = vtkNURBSParallelFor;
-  vtkNURBSRunWithProgress(
-    this, IsQuick(pool), 0.0, 0.95, [&](const std::function<bool(double)>& progress) {
+  options.Share = work.Pieces.GetShare();
+  // Processes talk in this thread only: MPI need not know of others.
+  vtkNURBSRunWithProgress(this, work.Pieces.IsParallel() || IsQuick(pool), 0.0, 0.95,
+    [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
       work.Result = nurbs::MakeSilhouettes(pool.Model, pool.FaceErrors, options);
     });
@@ -129,13 +135,12 @@ int vtkNURBSSilhouette::RequestData(
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
   const vtkNURBSParallelScope parallel;
-  vtkNURBSPieces pieces(request, outputs);
-  Work work;
+  Work work(request, outputs);
   std::string problem;
-  const auto outcome = pieces.Run(
+  const auto outcome = work.Pieces.Run(
     [&]() {
       vtkNURBSPieces::ThrowIf(this->CheckOptions());
-      vtkDataObject* whole = pieces.Gather(input);
+      vtkDataObject* whole = work.Pieces.Gather(input);
       vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
       this->Make(work);
       if (work.Result.Aborted)
@@ -144,7 +149,7 @@ int vtkNURBSSilhouette::RequestData(
       }
       this->Summarize(work);
       this->FillOutput(work, whole, output);
-      pieces.Keep(output);
+      work.Pieces.Keep(output);
       return true;
     },
     problem);

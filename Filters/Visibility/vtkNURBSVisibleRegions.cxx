@@ -21,6 +21,10 @@ vtkStandardNewMacro(vtkNURBSVisibleRegions);
 
 struct vtkNURBSVisibleRegions::Work
 {
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
   vtkNURBSModelPool Pool;
   nurbs::VisibleRegionOptions Options;
   nurbs::VisibleRegions Result;
@@ -66,8 +70,10 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   options.Clustering = this->Clustering;
   options.Parts = PartsOf(pool);
   options.Parallel = vtkNURBSParallelFor;
-  vtkNURBSRunWithProgress(
-    this, IsQuick(pool), 0.0, 0.9, [&](const std::function<bool(double)>& progress) {
+  options.Share = work.Pieces.GetShare();
+  // Processes talk in this thread only: MPI need not know of others.
+  vtkNURBSRunWithProgress(this, work.Pieces.IsParallel() || IsQuick(pool), 0.0, 0.9,
+    [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
       work.Result = nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options);
     });
@@ -177,13 +183,12 @@ int vtkNURBSVisibleRegions::RequestData(
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   const vtkNURBSParallelScope parallel;
-  vtkNURBSPieces pieces(request, outputs);
-  Work work;
+  Work work(request, outputs);
   std::string problem;
-  const auto outcome = pieces.Run(
+  const auto outcome = work.Pieces.Run(
     [&]() {
       vtkNURBSPieces::ThrowIf(this->CheckOptions());
-      vtkDataObject* whole = pieces.Gather(input);
+      vtkDataObject* whole = work.Pieces.Gather(input);
       vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
       this->Make(work);
       if (work.Result.Aborted || this->GetAbortExecute())
@@ -192,8 +197,8 @@ int vtkNURBSVisibleRegions::RequestData(
       }
       this->Summarize(work);
       this->FillOutputs(work, whole, outputs);
-      pieces.Keep(vtkDataObject::GetData(outputs, 0));
-      pieces.Keep(vtkDataObject::GetData(outputs, 1));
+      work.Pieces.Keep(vtkDataObject::GetData(outputs, 0));
+      work.Pieces.Keep(vtkDataObject::GetData(outputs, 1));
       return true;
     },
     problem);
