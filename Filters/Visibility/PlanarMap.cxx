@@ -118,9 +118,11 @@ struct Stopped
 class MapMaker
 {
 public:
-  MapMaker(const SnappedSegments& segments, const std::function<bool(double)>& progress)
+  MapMaker(
+    const SnappedSegments& segments, const std::function<bool(double)>& progress, double sideReach)
     : Segments(segments)
     , Progress(progress)
+    , Reach(sideReach)
   {}
 
   PlanarMap Make(int samplesPerCell, bool diagonals)
@@ -389,7 +391,7 @@ private:
     const Vec2 middle = 0.5 * (p + q);
     const Vec2 along = (side == 0 ? 1.0 : -1.0) * (q - p).normalized();
     const Vec2 way(-along[1], along[0]);
-    double free = 2.0 * SideReach;
+    double free = 2.0 * this->Reach;
     if (!this->IsFlat())
     {
       Face face = this->Beside[edge][side];
@@ -530,6 +532,7 @@ private:
 
   const SnappedSegments& Segments;
   const std::function<bool(double)>& Progress;
+  double Reach; // Of samples beside edges.
   Triangulation Mesh;
   std::vector<Vertex> Vertices;
   std::vector<std::int32_t> Rank;          // of vertices, in the order of places
@@ -542,12 +545,12 @@ private:
 } // namespace
 
 PlanarMap MakePlanarMap(const SnappedSegments& segments, int samplesPerCell,
-  const std::function<bool(double)>& progress, bool diagonals)
+  const std::function<bool(double)>& progress, bool diagonals, double sideReach)
 {
   CheckInput(segments, samplesPerCell);
   try
   {
-    return MapMaker(segments, progress).Make(samplesPerCell, diagonals);
+    return MapMaker(segments, progress, sideReach).Make(samplesPerCell, diagonals);
   }
   catch (const Stopped&)
   {

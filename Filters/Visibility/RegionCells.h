@@ -20,7 +20,7 @@ namespace nurbs
 struct SettledRegions
 {
   std::vector<RegionLoop> Visible, Hidden;
-  /// Cells that are seen at one of their points and not at another one: a line is missing there.
+  /// Places where what is seen and what is not are not told apart to the precision (FaceCells::Look).
   std::int64_t Unsettled = 0;
 };
 
