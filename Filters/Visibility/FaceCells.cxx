@@ -249,10 +249,10 @@ void FaceCells::FindInside()
   }
 }
 
-void FaceCells::MakeMap()
+void FaceCells::MakeMap(double sideReach)
 {
   this->Plane =
-    MakePlanarMap(this->Snapped, std::numeric_limits<int>::max(), nullptr, true, DomainPixels);
+    MakePlanarMap(this->Snapped, std::numeric_limits<int>::max(), nullptr, true, sideReach);
   this->CollectSources();
   this->PlaceVertices();
   this->FindInside();

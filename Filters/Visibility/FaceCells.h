@@ -71,9 +71,10 @@ public:
   void AddTrims(const std::vector<RegionLoop>& traced);
   /// A line within the domain. `isShadow`: what hides the face ends there.
   void AddPolyline(const std::vector<Vec2>& points, bool isShadow);
-  /// Divides the domain and looks at the cells within the face; returns the number of places where what is
+  /// Divides the domain and looks at the cells within the face, `besideShadows` also from both sides of
+  /// these; returns the number of places where what is
   /// seen and what is not are not told apart to the precision.
-  std::int64_t Look(const FaceView& view);
+  std::int64_t Look(const FaceView& view, bool besideShadows);
   /// All cells within the face are so, and there are some.
   bool All(Sight sight) const;
   /// The borders of the union of such cells, with it on the left.
@@ -88,7 +89,7 @@ private:
   void AddChords(const BezierCurve<2>& piece, double s, double t, int depth,
     const std::function<void(double)>& add) const;
   Vec2 OnCurve(std::int64_t curve, double share) const;
-  void MakeMap();
+  void MakeMap(double sideReach = SideReach);
   void CollectSources();
   void PlaceVertices();
   void FindInside();

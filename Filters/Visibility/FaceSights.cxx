@@ -357,12 +357,15 @@ std::int64_t FaceCells::Refine(const FaceView& view, const std::vector<char>& mi
   return unsettled;
 }
 
-std::int64_t FaceCells::Look(const FaceView& view)
+std::int64_t FaceCells::Look(const FaceView& view, bool besideShadows)
 {
   this->Snapped = SnapRound(this->Points, this->Segments);
-  this->MakeMap();
+  this->MakeMap(besideShadows ? double(GridLimit) : SideReach);
   std::vector<char> mixed = this->LookAtCells(view);
-  this->LookBesideShadows(view, mixed);
+  if (besideShadows)
+  {
+    this->LookBesideShadows(view, mixed);
+  }
   const bool some = std::find(mixed.begin(), mixed.end(), 1) != mixed.end();
   const std::int64_t unsettled = some ? this->Refine(view, mixed) : 0;
   this->JoinUnknown();

@@ -82,6 +82,8 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<GridTraits, Str
 using Vertex = Triangulation::Vertex_handle;
 using Face = Triangulation::Face_handle;
 constexpr std::int32_t NoCell = -1;
+// Triangles on the way from an edge to the next: beyond, it is not looked for.
+constexpr int LongestWalk = 64;
 
 // About how the time divides.
 constexpr double VerticesShare = 0.55;
@@ -401,8 +403,14 @@ private:
       {
         ++index;
       }
-      for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face);)
+      int passed = 0;
+      for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face); ++passed)
       {
+        if (passed == LongestWalk)
+        {
+          free = reached;
+          break;
+        }
         const Vec2 apex = Place(face->vertex(index)) - middle;
         if (std::abs(Cross(way, apex)) <= 1e-9 * (1.0 + apex.norm()))
         {

@@ -58,12 +58,12 @@ bool RegionCells::IsSeen(std::int64_t index, const Vec2& uv) const
 }
 
 SettledRegions RegionCells::Settle(
-  std::int64_t index, const std::vector<RegionLoop>& traced, bool hidden) const
+  std::int64_t index, const TracedRegion& traced, bool hidden) const
 {
   const Model& model = this->Lines.Whole.Data;
   FaceCells cells(model, index, this->Precision);
-  cells.AddTrims(traced);
-  for (const RegionLoop& loop : traced)
+  cells.AddTrims(traced.Loops);
+  for (const RegionLoop& loop : traced.Loops)
   {
     for (const RegionPiece& piece : loop)
     {
@@ -86,7 +86,7 @@ SettledRegions RegionCells::Settle(
   view.ImageOf = [&](const Vec2& uv) {
     return this->Image.Project(Evaluate(model.Faces[index].Geometry, uv[0], uv[1]));
   };
-  out.Unsettled = cells.Look(view);
+  out.Unsettled = cells.Look(view, traced.Doubtful > 0);
   const bool isWhole = cells.All(Sight::Visible);
   const bool isHidden = cells.All(Sight::Hidden);
   out.Visible = isWhole ? WholeRegion(model, index) : cells.Loops(Sight::Visible);
