@@ -164,8 +164,9 @@ void FaceCells::LookBesideShadows(const FaceView& view, std::vector<char>& mixed
     }
     const Vec2 a = ToVec(this->Snapped.Vertices[this->Snapped.Edges[e][0]]);
     const Vec2 b = ToVec(this->Snapped.Vertices[this->Snapped.Edges[e][1]]);
-    const double length =
-      (view.ImageOf(this->ToDomain(b)) - view.ImageOf(this->ToDomain(a))).norm();
+    const Vec2 middle = view.ImageOf(this->ToDomain(0.5 * (a + b)));
+    const double length = (view.ImageOf(this->ToDomain(a)) - middle).norm() +
+      (view.ImageOf(this->ToDomain(b)) - middle).norm(); // The ends may be one point in the image.
     for (int side = 0; side < 2 && length >= ShadowRoom * this->Precision; ++side)
     {
       const std::int32_t cell = this->Plane.Sides[e][side];
