@@ -311,7 +311,8 @@ void RegionTruth::Judge(
     ++check.Narrow;
     return;
   }
-  if (this->IsCoincident(hit))
+  const bool isBeyond = !this->Caster.GetTrims().Inside(hit.Face, hit.U, hit.V);
+  if ((isBeyond && isFront != this->AreHidden) || this->IsCoincident(hit))
   {
     ++check.Coincident;
     return;

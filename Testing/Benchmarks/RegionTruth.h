@@ -62,7 +62,8 @@ struct RegionCheck
   std::int64_t Wrong = 0;  ///< All others.
   /// Neither near nor wrong: beyond the precision, but another face lies at the same place, to a
   /// millionth of the size or twice the tolerance of the edges of either. Which one is in front is
-  /// not told by such a file.
+  /// not told by such a file. Or the ray meets the face beyond its own border, in a gap to another one
+  /// that the edges' tolerance bridges (RayCaster.h): no region can reach there.
   std::int64_t Coincident = 0;
   std::int64_t MissedFaces = 0; ///< Wrong hits on faces that have no region at all.
   double Worst = 0.0; ///< The largest finite distance of a disagreement, over the precision.
