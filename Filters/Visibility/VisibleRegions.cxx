@@ -63,7 +63,7 @@ public:
     : Source(model)
     , FaceErrors(faceErrors)
     , Options(options)
-    , Caster(model, options.Parallel)
+    , Caster(model, RayCaster::Cutting::WhenMet, options.Parallel)
     , Image(options.View, options.Up, this->Bounds())
   {}
 
