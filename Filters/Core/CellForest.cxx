@@ -36,7 +36,8 @@ double ShortestRow(const Surface& surface, int dir)
   for (int k = 0; k < view.Count[1 - dir]; ++k)
   {
     const int first = dir == 0 ? k * view.Count[0] : k;
-    const int last = dir == 0 ? first + view.Count[0] - 1 : first + (view.Count[1] - 1) * view.Count[0];
+    const int last =
+      dir == 0 ? first + view.Count[0] - 1 : first + (view.Count[1] - 1) * view.Count[0];
     shortest = std::min(shortest, (view.Point(last) - view.Point(first)).norm());
   }
   return shortest;
@@ -239,8 +240,8 @@ double CellForest::Extreme(int axis, int side) const
   for (std::size_t k = 0; k < this->Roots.size(); ++k)
   {
     const Box3& box = this->PatchBoxes[k];
-    queue.push({ sign * (side == 0 ? box.min() : box.max())[axis], 0, std::int32_t(k),
-      &this->Roots[k] });
+    queue.push(
+      { sign * (side == 0 ? box.min() : box.max())[axis], 0, std::int32_t(k), &this->Roots[k] });
   }
   double best = -std::numeric_limits<double>::infinity();
   while (!queue.empty() && queue.top().Reached > best + BoundsPart * this->Size)
@@ -257,8 +258,8 @@ double CellForest::Extreme(int axis, int side) const
       const Branch& branch = *As<Branch>(child);
       if (branch.Children[k] != Nothing)
       {
-        queue.push({ sign * branch.Bounds[k][side][axis], top.Depth + 1, top.Patch,
-          &branch.Children[k] });
+        queue.push(
+          { sign * branch.Bounds[k][side][axis], top.Depth + 1, top.Patch, &branch.Children[k] });
       }
     }
   }

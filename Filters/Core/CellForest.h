@@ -23,8 +23,8 @@ class CellForest
 public:
   /// Takes the patches of the model's faces, see PatchRays::Build; model and trims must outlive this.
   /// `size`: of the model, see PatchCutter; `rounding`: boxes are widened by four times that.
-  CellForest(const Model& model, const TrimIndex& trims, const std::vector<double>& reach, double size,
-    double rounding, const ParallelFor& parallel);
+  CellForest(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+    double size, double rounding, const ParallelFor& parallel);
   ~CellForest();
 
   std::int64_t Count() const { return static_cast<std::int64_t>(this->Given.size()); }
@@ -40,7 +40,8 @@ public:
   /// Calls `visit(cell)` for the cells of a patch whose boxes the ray meets between tMin and tMax,
   /// which `visit` may make less, about from near to far.
   template <typename Visit>
-  void Walk(std::int32_t patch, const BoxRay& ray, double tMin, double& tMax, const Visit& visit) const;
+  void Walk(
+    std::int32_t patch, const BoxRay& ray, double tMin, double& tMax, const Visit& visit) const;
 
   /// Bytes occupied by now.
   std::size_t MemoryUse() const { return this->Bytes; }

@@ -211,7 +211,8 @@ void PatchCutter::Add(
 {
   CutPiece whole = Whole(given);
   const auto first = static_cast<std::int64_t>(this->Points.size());
-  this->Patches.push_back({ { given.Degree[0], given.Degree[1] }, face, first, { given.U, given.V } });
+  this->Patches.push_back(
+    { { given.Degree[0], given.Degree[1] }, face, first, { given.U, given.V } });
   this->Points.insert(this->Points.end(), whole.Patch.Points.begin(), whole.Patch.Points.end());
   const std::size_t before = this->Cells.size();
   this->Cut(Context(test, reach, given), whole);

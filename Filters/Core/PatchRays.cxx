@@ -228,8 +228,7 @@ std::size_t PatchRays::MemoryUse() const
     this->Cells.capacity() * sizeof(Cell) + this->CellBoxes.capacity() * sizeof(Box3);
 }
 
-void PatchRays::Intersect(
-  const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const
+void PatchRays::Intersect(const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const
 {
   const Vec3 offset = cell.Middle - ray.Origin;
   const double x = ray.Normal[0].dot(offset);

@@ -100,7 +100,6 @@ RayCaster::RayCaster(const Model& model, Cutting cutting, const ParallelFor& par
   {
     double size, rounding;
     PatchRays::Measure(model, size, rounding);
-    // Copies of this share the index of trims, and may outlive it.
     const auto forest =
       std::make_shared<CellForest>(model, this->Trims, this->Reach, size, rounding, parallel);
     this->Surfaces.Build(model, *forest);

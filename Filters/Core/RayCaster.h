@@ -62,8 +62,11 @@ public:
     /// from one side. Their hits are the same.
     WhenMet
   };
-  /// Likewise.
+  /// As above.
   RayCaster(const Model& model, Cutting cutting, const ParallelFor& parallel = SerialFor);
+
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
 
   /// The hit with the smallest t in the ray's range; of hits within 1e-9 of the model's size of each
   /// other, that on the first face. Returns false if there is none, and leaves `hit`. Throws Error if
@@ -89,7 +92,7 @@ public:
   /// searches by box.
   const BoxTree& GetTree() const { return this->Tree; }
   /// The face of a part.
-  std::int64_t GetFace(std::int32_t part) const 
+  std::int64_t GetFace(std::int32_t part) const
   {
     return this->Forest ? this->Surfaces.FaceOf(part) : this->Surfaces.FaceOfCell(part);
   }
