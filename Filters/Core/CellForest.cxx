@@ -119,19 +119,43 @@ CellForest::CellForest(const Model& model, const TrimIndex& trims, const std::ve
   {
     throw Error("PatchRays: more than 2^31 patches or cells");
   }
-  this->Roots = std::vector<std::atomic<Child>>(this->Given.size());
-  for (std::atomic<Child>& root : this->Roots)
+  this->Roots = std::vector<Slot>(this->Given.size());
+  for (std::size_t k = 0; k < this->Roots.size(); ++k)
   {
-    root = IsPiece;
+    Box3 box = this->PatchBoxes[k];
+    box.min().array() -= this->Margin;
+    box.max().array() += this->Margin;
+    this->Roots[k].Content = IsPiece;
+    this->Roots[k].SetBounds(box);
   }
-  this->Bytes = this->Given.size() * (sizeof(BezierPatch) + sizeof(Box3) + sizeof(Child));
+  this->Bytes = this->Given.size() * (sizeof(BezierPatch) + sizeof(Box3) + sizeof(Slot));
 }
 
 CellForest::~CellForest()
 {
-  for (const std::atomic<Child>& root : this->Roots)
+  for (const Slot& root : this->Roots)
   {
-    Delete(root);
+    Delete(root.Content);
+  }
+}
+
+void CellForest::Slot::SetBounds(const Box3& box)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds[0][axis].store(RoundTo(box.min()[axis], -infinity), std::memory_order_relaxed);
+    this->Bounds[1][axis].store(RoundTo(box.max()[axis], infinity), std::memory_order_relaxed);
+  }
+}
+
+void CellForest::Slot::SetVoid()
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds[0][axis].store(infinity, std::memory_order_relaxed);
+    this->Bounds[1][axis].store(-infinity, std::memory_order_relaxed);
   }
 }
 
@@ -148,8 +172,8 @@ void CellForest::Delete(Child child)
   else if ((child & 3) == IsBranch)
   {
     const Branch* const branch = As<Branch>(child);
-    Delete(branch->Children[0]);
-    Delete(branch->Children[1]);
+    Delete(branch->Halves[0].Content);
+    Delete(branch->Halves[1].Content);
     delete branch;
   }
 }
@@ -175,11 +199,11 @@ CellForest::Child CellForest::Judge(std::int32_t patch, CutPiece&& piece) const
 }
 
 /// Makes a branch of a piece, or judges a root and does so.
-CellForest::Child CellForest::Make(std::int32_t patch, std::atomic<Child>& child) const
+CellForest::Child CellForest::Make(std::int32_t patch, Slot& slot) const
 {
   Owner& owner = this->Owners[this->Faces[patch]];
   const std::lock_guard<std::mutex> lock(owner.Lock);
-  Child now = child.load(std::memory_order_relaxed);
+  Child now = slot.Content.load(std::memory_order_relaxed);
   if (now == IsPiece)
   {
     const std::int32_t face = this->Faces[patch];
@@ -196,26 +220,32 @@ CellForest::Child CellForest::Make(std::int32_t patch, std::atomic<Child>& child
     CutPiece halves[2];
     PatchCutter::Halve(*piece, halves[0], halves[1]);
     auto branch = std::make_unique<Branch>();
-    const float infinity = std::numeric_limits<float>::infinity();
+    Box3 whole;
     for (int k = 0; k < 2; ++k)
     {
-      const Box3 box = halves[k].Box();
-      for (int axis = 0; axis < 3; ++axis)
+      Slot& half = branch->Halves[k];
+      Box3 box = halves[k].Box();
+      box.min().array() -= this->Margin;
+      box.max().array() += this->Margin;
+      half.Content = this->Judge(patch, std::move(halves[k]));
+      if (half.Content == Nothing)
       {
-        branch->Bounds[k][0][axis] = RoundTo(box.min()[axis] - this->Margin, -infinity);
-        branch->Bounds[k][1][axis] = RoundTo(box.max()[axis] + this->Margin, infinity);
+        half.SetVoid();
       }
-      branch->Children[k] = this->Judge(patch, std::move(halves[k]));
-      if (branch->Children[k] == Nothing)
+      else
       {
-        std::fill_n(branch->Bounds[k][0], 3, infinity);
-        std::fill_n(branch->Bounds[k][1], 3, -infinity);
+        half.SetBounds(box);
+        whole.extend(box);
       }
+    }
+    if (!whole.isEmpty())
+    {
+      slot.SetBounds(whole);
     }
     this->Bytes += sizeof(Branch);
     now = reinterpret_cast<Child>(branch.release()) | IsBranch;
   }
-  child.store(now, std::memory_order_release);
+  slot.Content.store(now, std::memory_order_release);
   return now;
 }
 
@@ -228,7 +258,7 @@ double CellForest::Extreme(int axis, int side) const
     double Reached; ///< Larger is farther.
     int Depth;
     std::int32_t Patch;
-    std::atomic<Child>* At;
+    Slot* At;
     bool operator<(const Entry& other) const
     {
       return this->Reached != other.Reached ? this->Reached < other.Reached
@@ -239,9 +269,8 @@ double CellForest::Extreme(int axis, int side) const
   std::priority_queue<Entry> queue;
   for (std::size_t k = 0; k < this->Roots.size(); ++k)
   {
-    const Box3& box = this->PatchBoxes[k];
-    queue.push(
-      { sign * (side == 0 ? box.min() : box.max())[axis], 0, std::int32_t(k), &this->Roots[k] });
+    Slot& root = this->Roots[k];
+    queue.push({ sign * root.Bound(side, axis), 0, std::int32_t(k), &root });
   }
   double best = -std::numeric_limits<double>::infinity();
   while (!queue.empty() && queue.top().Reached > best + BoundsPart * this->Size)
@@ -255,11 +284,10 @@ double CellForest::Extreme(int axis, int side) const
     }
     for (int k = 0; k < 2 && (child & 3) == IsBranch; ++k)
     {
-      const Branch& branch = *As<Branch>(child);
-      if (branch.Children[k] != Nothing)
+      Slot& half = As<Branch>(child)->Halves[k];
+      if (!half.IsVoid())
       {
-        queue.push(
-          { sign * branch.Bounds[k][side][axis], top.Depth + 1, top.Patch, &branch.Children[k] });
+        queue.push({ sign * half.Bound(side, axis), top.Depth + 1, top.Patch, &half });
       }
     }
   }

@@ -56,11 +56,25 @@ private:
     IsBranch = 2,
     IsPiece = 3 ///< A CutPiece to be halved; of a root, without a pointer: the patch, not judged.
   };
-  /// Two children with their boxes, which fill a line of the cache.
+  /// A child and a box around what is left of it, which becomes smaller as more of it is made.
+  struct Slot
+  {
+    std::atomic<Child> Content{ Nothing };
+    std::atomic<float> Bounds[2]
+                             [3]; ///< Lower or upper; axis. Of nothing: the lower ones are higher.
+
+    float Bound(int side, int axis) const
+    {
+      return this->Bounds[side][axis].load(std::memory_order_relaxed);
+    }
+    bool IsVoid() const { return this->Bound(0, 0) > this->Bound(1, 0); }
+    void SetBounds(const Box3& box);
+    void SetVoid();
+  };
+  /// Fills a line of the cache.
   struct alignas(64) Branch
   {
-    float Bounds[2][2][3]; ///< Child; lower or upper; axis.
-    mutable std::atomic<Child> Children[2];
+    mutable Slot Halves[2];
   };
   /// What the patches of a face have in common.
   struct Owner
@@ -75,17 +89,16 @@ private:
     return reinterpret_cast<const T*>(child & ~Child(3));
   }
   /// The child, which is no piece.
-  Child Made(std::int32_t patch, std::atomic<Child>& child) const
+  Child Made(std::int32_t patch, Slot& slot) const
   {
-    const Child now = child.load(std::memory_order_acquire);
-    return (now & 3) == IsPiece ? this->Make(patch, child) : now;
+    const Child now = slot.Content.load(std::memory_order_acquire);
+    return (now & 3) == IsPiece ? this->Make(patch, slot) : now;
   }
-  Child Make(std::int32_t patch, std::atomic<Child>& child) const;
+  Child Make(std::int32_t patch, Slot& slot) const;
   Child Judge(std::int32_t patch, CutPiece&& piece) const;
   double Extreme(int axis, int side) const;
   static void Delete(Child child);
-  static bool IsMet(
-    const float (&bounds)[2][3], const BoxRay& ray, double tMin, double tMax, double& entry);
+  static bool IsMet(const Slot& slot, const BoxRay& ray, double tMin, double tMax, double& entry);
 
   const Model& Source;
   const TrimIndex& Trims;
@@ -95,19 +108,19 @@ private:
   std::vector<BezierPatch> Given;  ///< By face.
   std::vector<std::int32_t> Faces; ///< One a patch.
   std::vector<Box3> PatchBoxes;
-  mutable std::vector<Owner> Owners;             ///< One a face.
-  mutable std::vector<std::atomic<Child>> Roots; ///< One a patch.
+  mutable std::vector<Owner> Owners; ///< One a face.
+  mutable std::vector<Slot> Roots;   ///< One a patch.
   mutable std::atomic<std::size_t> Bytes{ 0 };
 };
 
 inline bool CellForest::IsMet(
-  const float (&bounds)[2][3], const BoxRay& ray, double tMin, double tMax, double& entry)
+  const Slot& slot, const BoxRay& ray, double tMin, double tMax, double& entry)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
     const int side = ray.Near[axis];
-    const double a = (bounds[side][axis] - ray.Origin[axis]) * ray.Inverse[axis];
-    const double b = (bounds[1 - side][axis] - ray.Origin[axis]) * ray.Inverse[axis];
+    const double a = (slot.Bound(side, axis) - ray.Origin[axis]) * ray.Inverse[axis];
+    const double b = (slot.Bound(1 - side, axis) - ray.Origin[axis]) * ray.Inverse[axis];
     tMin = a > tMin ? a : tMin;
     tMax = b < tMax ? b : tMax;
   }
@@ -121,13 +134,17 @@ void CellForest::Walk(
 {
   struct Waiting
   {
-    std::atomic<Child>* At;
+    Slot* At;
     double Entry;
   };
   // One waits at each depth.
   Waiting stack[PatchCutter::MaxHalvings + 3];
   int size = 0;
-  stack[size++] = { &this->Roots[patch], tMin };
+  double start;
+  if (IsMet(this->Roots[patch], ray, tMin, tMax, start))
+  {
+    stack[size++] = { &this->Roots[patch], start };
+  }
   while (size > 0)
   {
     const Waiting next = stack[--size];
@@ -142,17 +159,21 @@ void CellForest::Walk(
     }
     else if ((child & 3) == IsBranch)
     {
-      const Branch& branch = *As<Branch>(child);
+      Slot* const halves = As<Branch>(child)->Halves;
       double entry[2];
-      const bool met[2] = { IsMet(branch.Bounds[0], ray, tMin, tMax, entry[0]),
-        IsMet(branch.Bounds[1], ray, tMin, tMax, entry[1]) };
+      const bool met[2] = { IsMet(halves[0], ray, tMin, tMax, entry[0]),
+        IsMet(halves[1], ray, tMin, tMax, entry[1]) };
       const int first = met[1] && (!met[0] || entry[1] < entry[0]) ? 1 : 0;
       for (const int k : { 1 - first, first })
       {
         if (met[k])
         {
-          stack[size++] = { &branch.Children[k], entry[k] };
+          stack[size++] = { &halves[k], entry[k] };
         }
+      }
+      if (!met[first] && halves[0].IsVoid() && halves[1].IsVoid())
+      {
+        next.At->SetVoid();
       }
     }
   }
