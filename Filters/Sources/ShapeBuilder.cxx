@@ -35,6 +35,7 @@ namespace
 
 constexpr double SameLength = 1e-10; // relative: of parameters that are the same
 constexpr double FitShare = 0.01;    // of the tolerance of curves: what trim curves may add to it
+constexpr double FitSlack = 1.5;     // The deviation of a fit is measured at some places only.
 
 class ShapeMaker
 {
@@ -306,8 +307,7 @@ Handle(Geom2d_Curve) ShapeMaker::PcurveOf(const EdgeUse& use, std::int64_t edge)
     FitCurve<2>([&](double t) { return surface->Parameters(Evaluate(trim, domain.Clamp(t))); },
       LiftBreaks(this->Whole.Data.Faces[use.Face].Geometry, trim), surface->UnitLengths(),
       FitShare * this->Options.CurveTolerance * this->Size * this->Options.Scale, error);
-  double& tolerance = this->Edges.Edges[edge].Tolerance;
-  tolerance += std::max(0.0, error - Precision::Confusion()) / this->Options.Scale;
+  this->Edges.Edges[edge].Tolerance += FitSlack * error / this->Options.Scale;
   return ExportCurve(fitted.View(), range);
 }
 
