@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace nurbs
 {
@@ -20,10 +21,12 @@ constexpr double LeastShare = 0.125;
 // Cells without a circle of so many pixels go with a neighbour.
 constexpr double LeastRadius = 1.0;
 // How far from a shadow its sides are looked at, in precisions, and how much room there must be.
-constexpr double ShadowReach = 2.0;
-constexpr double ShadowRoom = 1.25;
-// Likewise for sides of triangles, where a line is searched for, and where along them.
+constexpr double ShadowReach = 1.0;
+constexpr double ShadowRoom = 0.75;
+// Likewise for sides of triangles, where a line is searched for; and where along them, if they are longer
+// than so many precisions in the image, else in the middle only.
 constexpr double SideReachShare = 0.5;
+constexpr double LongSide = 16.0;
 constexpr double SidePlaces[] = { 0.5, 0.25, 0.75 };
 // A line's points are found to this share of the precision in the image, by so many halvings at most.
 constexpr double BorderShare = 0.02;
@@ -262,10 +265,13 @@ FaceCells::TriangleLook FaceCells::LookAtTriangle(
   {
     const Vec2 a = ToVec(corners[k]);
     const Vec2 along = ToVec(corners[(k + 1) % 3]) - a;
-    for (const double share : SidePlaces)
+    const double length =
+      (view.ImageOf(this->ToDomain(a + along)) - view.ImageOf(this->ToDomain(a))).norm();
+    const int places = length > LongSide * this->Precision ? int(std::size(SidePlaces)) : 1;
+    for (int place = 0; place < places; ++place)
     {
       const std::optional<Vec2> look =
-        this->Aside(view, a + share * along, along, middle.Point, reach, reach);
+        this->Aside(view, a + SidePlaces[place] * along, along, middle.Point, reach, reach);
       if (look && view.IsSeen(this->ToDomain(*look)) != isSeen)
       {
         const std::optional<GridPoint> border =

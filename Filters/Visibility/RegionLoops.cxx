@@ -13,6 +13,9 @@ namespace nurbs
 namespace
 {
 
+// Largest distance of a shadow's chords from it, on the surface, in precisions: the line that casts it is
+// not exact either.
+constexpr double ShadowChord = 0.5;
 constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
 // Chords longer than so many pixels are halved at least so often: a wavy surface may meet the middle.
 constexpr double SureLength = 64.0;
@@ -385,7 +388,7 @@ void RegionLifter::RefineShadow(
       return;
     }
   }
-  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision &&
+  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= ShadowChord * this->Precision &&
     (depth <= MaxShadowDepth - SureHalvings ||
       (b.Image - a.Image).norm() <= SureLength * this->Map.Pixel))
   {

@@ -37,7 +37,7 @@ struct TracedRegion
   std::int64_t Doubtful = 0;
 };
 
-/// The regions of all faces. `precision`: largest distance of chords of shadows from the
+/// The regions of all faces. `precision`: twice the largest distance of chords of shadows from the
 /// exact curve on the surface. `bothSides`: what is seen from behind is visible, too.
 std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane& image,
   const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,

@@ -286,9 +286,28 @@ double RegionTruth::DistanceToBorder(std::int64_t face, const Vec3& point) const
   return nearest;
 }
 
-void RegionTruth::Judge(
-  const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const
+// True if the tolerance of edges of the face, or of the one in front, is what the point depends on.
+bool RegionTruth::IsBridged(const nurbs::RayHit& hit, const nurbs::RayHit& front) const
 {
+  if (&hit == &front && !this->AreHidden && !this->Caster.GetTrims().Inside(hit.Face, hit.U, hit.V))
+  {
+    return true;
+  }
+  const double reach = 2.0 * std::max(this->Tolerances[hit.Face], this->Tolerances[front.Face]);
+  for (std::size_t face = 0; face < this->Borders.size() && reach > 0.0; ++face)
+  {
+    if (this->DistanceToBorder(std::int64_t(face), hit.Point) <= this->Precision + reach)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void RegionTruth::Judge(
+  const nurbs::RayHit& hit, const nurbs::RayHit& front, RegionCheck& check, std::size_t list) const
+{
+  const bool isFront = &hit == &front;
   bool inside = false;
   for (const std::int64_t region : this->RegionsOf[hit.Face])
   {
@@ -311,7 +330,7 @@ void RegionTruth::Judge(
     ++check.Narrow;
     return;
   }
-  if (this->IsCoincident(hit))
+  if (this->IsBridged(hit, front) || this->IsCoincident(hit))
   {
     ++check.Coincident;
     return;
@@ -353,7 +372,7 @@ RegionCheck RegionTruth::Check(std::int64_t rays, std::size_t list) const
         ++part.Rays;
         for (std::size_t k = 0; k < hits.size(); ++k)
         {
-          this->Judge(hits[k], k == 0, part, list);
+          this->Judge(hits[k], hits[0], part, list);
         }
       }
       const std::lock_guard<std::mutex> lock(mutex);
