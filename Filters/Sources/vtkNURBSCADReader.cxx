@@ -10,12 +10,12 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
 #include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkSMPTools.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <chrono>
@@ -31,12 +31,6 @@ double Now()
 {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-void SMPFor(std::int64_t first, std::int64_t last,
-  const std::function<void(std::int64_t, std::int64_t)>& body)
-{
-  vtkSMPTools::For(first, last, 1, [&](vtkIdType begin, vtkIdType end) { body(begin, end); });
 }
 
 /// One model of the output while it is made.
@@ -261,7 +255,7 @@ bool vtkNURBSCADReader::Load(Work& work)
   const std::vector<TopoDS_Shape>& shapes = work.Document.Parts;
   for (const TopoDS_Shape& shape : shapes)
   {
-    work.Parts.push_back(nurbs::ConvertPart(shape, SMPFor, abort));
+    work.Parts.push_back(nurbs::ConvertPart(shape, vtkNURBSParallelFor, abort));
     this->UpdateProgress(
       ParsePart + (1.0 - ParsePart) * double(work.Parts.size()) / double(shapes.size()));
     if (this->GetAbortExecute())

@@ -19,13 +19,22 @@
 
 vtkStandardNewMacro(vtkNURBSVisibleRegions);
 
+/// What is kept for the next view of an input that is still the same.
+struct vtkNURBSVisibleRegions::Kept
+{
+  vtkNURBSModelPool Pool;
+  nurbs::VisibilityCache Cache;
+};
+
 struct vtkNURBSVisibleRegions::Work
 {
-  Work(vtkInformation* request, vtkInformationVector* outputs)
-    : Pieces(request, outputs)
+  Work(const vtkNURBSModelPool& pool, const vtkNURBSPieces& pieces)
+    : Pool(pool)
+    , Pieces(pieces)
   {}
-  vtkNURBSPieces Pieces;
-  vtkNURBSModelPool Pool;
+
+  const vtkNURBSModelPool& Pool;
+  const vtkNURBSPieces& Pieces;
   nurbs::VisibleRegionOptions Options;
   nurbs::VisibleRegions Result;
 };
@@ -75,7 +84,8 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   vtkNURBSRunWithProgress(this, work.Pieces.IsParallel() || IsQuick(pool), 0.0, 0.9,
     [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
-      work.Result = nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options);
+      work.Result =
+        nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options, &this->Before->Cache);
     });
 }
 
@@ -176,6 +186,30 @@ void vtkNURBSVisibleRegions::FillOutputs(
     [&](const nurbs::DrawnLine& line) { return line.Visible && choice.Kinds[int(line.Kind)]; });
 }
 
+// False: it was aborted.
+bool vtkNURBSVisibleRegions::MakeOutputs(
+  vtkDataObject* input, vtkNURBSPieces& pieces, vtkInformationVector* outputs)
+{
+  vtkNURBSPieces::ThrowIf(this->CheckOptions());
+  vtkDataObject* whole = pieces.Gather(input);
+  if (!(this->Before && this->Before->Pool.IsUpToDate(whole)))
+  {
+    this->Before = std::make_unique<Kept>();
+    vtkNURBSPieces::ThrowIf(this->Before->Pool.Collect(whole));
+  }
+  Work work(this->Before->Pool, pieces);
+  this->Make(work);
+  if (work.Result.Aborted || this->GetAbortExecute())
+  {
+    return false;
+  }
+  this->Summarize(work);
+  this->FillOutputs(work, whole, outputs);
+  pieces.Keep(vtkDataObject::GetData(outputs, 0));
+  pieces.Keep(vtkDataObject::GetData(outputs, 1));
+  return true;
+}
+
 int vtkNURBSVisibleRegions::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -183,25 +217,14 @@ int vtkNURBSVisibleRegions::RequestData(
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   const vtkNURBSParallelScope parallel;
-  Work work(request, outputs);
+  vtkNURBSPieces pieces(request, outputs);
   std::string problem;
-  const auto outcome = work.Pieces.Run(
-    [&]() {
-      vtkNURBSPieces::ThrowIf(this->CheckOptions());
-      vtkDataObject* whole = work.Pieces.Gather(input);
-      vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
-      this->Make(work);
-      if (work.Result.Aborted || this->GetAbortExecute())
-      {
-        return false;
-      }
-      this->Summarize(work);
-      this->FillOutputs(work, whole, outputs);
-      work.Pieces.Keep(vtkDataObject::GetData(outputs, 0));
-      work.Pieces.Keep(vtkDataObject::GetData(outputs, 1));
-      return true;
-    },
-    problem);
+  const auto outcome =
+    pieces.Run([&]() { return this->MakeOutputs(input, pieces, outputs); }, problem);
+  if (outcome == vtkNURBSPieces::FAILED || pieces.IsParallel())
+  {
+    this->Before = nullptr; // What was gathered goes with the pieces.
+  }
   this->SetErrorCode(
     outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
   if (outcome == vtkNURBSPieces::DONE)
