@@ -6,6 +6,7 @@
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataArray.h"
+#include "vtkDataLabelRepresentation.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkIdTypeArray.h"
@@ -13,7 +14,9 @@
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNURBSFaceMarks.h"
 #include "vtkNURBSMapper.h"
+#include "vtkNURBSModel.h"
 #include "vtkNURBSModelBlocks.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -25,9 +28,13 @@
 #include "vtkPolyData.h"
 #include "vtkProcessModule.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSelectionRepresentation.h"
+#include "vtkTextProperty.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkView.h"
 
 #include <algorithm>
@@ -132,6 +139,77 @@ vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
   return origin;
 }
 
+// The unit of the points, as the first model in what is drawn tells it.
+std::string UnitOf(vtkDataObject* drawn)
+{
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(drawn))
+  {
+    for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::SkipEmptyNodes))
+    {
+      const std::string unit = UnitOf(child);
+      if (!unit.empty())
+      {
+        return unit;
+      }
+    }
+    return "";
+  }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(drawn);
+  return grid ? vtkNURBSModel::GetLengthUnit(grid) : "";
+}
+
+// What a look shows, with its unit; "" if it is nothing that a legend could tell.
+std::string TitleOf(int look, const std::string& unit)
+{
+  const std::string length = unit.empty() ? "length" : unit;
+  switch (look)
+  {
+    case vtkNURBSMapper::MEAN_CURVATURE:
+      return "Mean\ncurvature\n1 / " + length;
+    case vtkNURBSMapper::GAUSSIAN_CURVATURE:
+      return "Gaussian\ncurvature\n1 / " + length + "^2";
+    case vtkNURBSMapper::MINIMUM_CURVATURE:
+      return "Minimum\ncurvature\n1 / " + length;
+    case vtkNURBSMapper::MAXIMUM_CURVATURE:
+      return "Maximum\ncurvature\n1 / " + length;
+    case vtkNURBSMapper::DRAFT_ANGLE:
+      return "Draft\nangle\ndegrees";
+    default:
+      return "";
+  }
+}
+
+vtkSmartPointer<vtkScalarBarActor> MakeLegend()
+{
+  auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
+  bar->SetVisibility(0);
+  // The title is centred above the bar; axes of orientation are below.
+  bar->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  bar->SetPosition(35.0, 130.0);
+  bar->SetPosition2(0.14, 0.5);
+  bar->SetVerticalTitleSeparation(10);
+  bar->SetBarRatio(0.25);
+  bar->SetNumberOfLabels(5);
+  bar->SetUnconstrainedFontSize(true);
+  for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() })
+  {
+    text->SetFontSize(14);
+    text->ItalicOff();
+    text->BoldOff();
+    text->ShadowOff();
+  }
+  return bar;
+}
+
+// Tells what has no question of its own.
+struct Labels : vtkDataLabelRepresentation
+{
+  static bool ArePointsShown(vtkDataLabelRepresentation* labels)
+  {
+    return labels->*(&Labels::PointLabelVisibility) != 0;
+  }
+};
+
 // The cells of a selection as something that ParaView delivers: a point (flat index of the block, or
 // -1; index of the cell; 0) each. Selected points are no faces.
 vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
@@ -210,13 +288,17 @@ vtkNURBSSurfaceRepresentation::vtkNURBSSurfaceRepresentation()
   mapper->SetCompositeDataDisplayAttributes(attributes);
   this->Actor->SetMapper(mapper);
   this->SuppressLOD = true;
+  this->Legend = MakeLegend();
 }
+
+vtkNURBSSurfaceRepresentation::~vtkNURBSSurfaceRepresentation() = default;
 
 void vtkNURBSSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseModelColors: " << this->UseModelColors << "\n";
   os << indent << "FaceEdges: " << this->FaceEdges << "\n";
+  os << indent << "ShowLegend: " << this->ShowLegend << "\n";
   os << indent << "UseLookRange: " << this->UseLookRange << "\n";
   os << indent << "LookRange: " << this->LookRange[0] << " " << this->LookRange[1] << "\n";
 }
@@ -242,11 +324,16 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     }
     this->Actor->SetEnableLOD(0);
     this->UpdateColoringParameters();
+    this->UpdateLegend();
     return 1;
   }
-  if (request == vtkPVView::REQUEST_UPDATE() && this->IsApart())
+  if (request == vtkPVView::REQUEST_UPDATE())
   {
-    this->RenewSelection();
+    this->PutLabelsOnFaces();
+    if (this->IsApart())
+    {
+      this->RenewSelection();
+    }
   }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
@@ -343,6 +430,36 @@ vtkSmartPointer<vtkSelection> vtkNURBSSurfaceRepresentation::FindSelectedFaces()
     }
   }
   return selection;
+}
+
+// Labels of what is selected of our input get a filter between them and the selection.
+void vtkNURBSSurfaceRepresentation::PutLabelsOnFaces()
+{
+  vtkView* view = this->GetView();
+  vtkAlgorithmOutput* input = OriginOf(this);
+  for (int i = 0; input && view && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    auto* labels = vtkDataLabelRepresentation::SafeDownCast(view->GetRepresentation(i));
+    if (!labels || labels->GetNumberOfInputConnections(0) == 0)
+    {
+      continue;
+    }
+    vtkAlgorithmOutput* source = labels->GetInputConnection(0, 0);
+    vtkSmartPointer<vtkNURBSFaceMarks> marks =
+      vtkNURBSFaceMarks::SafeDownCast(source->GetProducer());
+    auto* extraction = vtkPVExtractSelection::SafeDownCast(OriginOf(labels)->GetProducer());
+    if (!marks && extraction && OriginOf(extraction) == input)
+    {
+      marks = vtkSmartPointer<vtkNURBSFaceMarks>::New();
+      marks->SetInputConnection(source);
+      labels->SetInputConnection(marks->GetOutputPort());
+    }
+    if (marks && marks->GetKeepModels() != Labels::ArePointsShown(labels))
+    {
+      marks->SetKeepModels(Labels::ArePointsShown(labels));
+      labels->MarkModified();
+    }
+  }
 }
 
 void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
@@ -464,6 +581,61 @@ void vtkNURBSSurfaceRepresentation::UpdateLookTable()
   table->AddRGBPoint(0.5 * (least + largest), 0.87, 0.87, 0.87);
   table->AddRGBPoint(largest, 0.71, 0.02, 0.15);
   this->GetNURBSMapper()->SetLookTable(table);
+}
+
+bool vtkNURBSSurfaceRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (renderView)
+  {
+    renderView->GetNonCompositedRenderer()->AddActor(this->Legend);
+  }
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkNURBSSurfaceRepresentation::RemoveFromView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (renderView)
+  {
+    renderView->GetNonCompositedRenderer()->RemoveActor(this->Legend);
+  }
+  return this->Superclass::RemoveFromView(view);
+}
+
+// Representations that do not show are not asked to render.
+void vtkNURBSSurfaceRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  if (!visible)
+  {
+    this->Legend->SetVisibility(0);
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::UpdateLegend()
+{
+  vtkNURBSMapper* mapper = this->GetNURBSMapper();
+  vtkDataObject* drawn = mapper->GetInputDataObject(0, 0);
+  const std::string title = TitleOf(mapper->GetLook(), UnitOf(drawn));
+  double bounds[6];
+  mapper->GetBounds(bounds);
+  const bool shown =
+    this->ShowLegend && !title.empty() && vtkMath::AreBoundsInitialized(bounds) != 0;
+  this->Legend->SetVisibility(shown);
+  if (shown)
+  {
+    this->Legend->SetLookupTable(mapper->GetLookColors());
+    this->Legend->SetTitle(title.c_str());
+    this->Legend->SetLabelFormat(
+      mapper->GetLook() == vtkNURBSMapper::DRAFT_ANGLE ? "%.0f" : "%.3g");
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::SetLegendColor(double red, double green, double blue)
+{
+  this->Legend->GetTitleTextProperty()->SetColor(red, green, blue);
+  this->Legend->GetLabelTextProperty()->SetColor(red, green, blue);
 }
 
 void vtkNURBSSurfaceRepresentation::SetPixelError(double pixels)
