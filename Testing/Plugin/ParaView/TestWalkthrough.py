@@ -70,7 +70,7 @@ def settings(script, name):
         script.check(PROPERTIES, "Tolerance", False)
         script.check(PROPERTIES, "AbsoluteTolerance", True)
     elif name in ("NURBSSilhouette", "NURBSVisibleRegions"):
-        script.event(PROPERTIES + "FromView/TakeView", "activate")
+        # The view as it is, by itself.
         script.check(PROPERTIES, "Direction", False)
         script.check(PROPERTIES, "EyePoint", True)
         script.event(PROPERTIES + "SharpEdges/CheckBox", "set_boolean", "false")
