@@ -82,6 +82,8 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<GridTraits, Str
 using Vertex = Triangulation::Vertex_handle;
 using Face = Triangulation::Face_handle;
 constexpr std::int32_t NoCell = -1;
+// Triangles on the way from an edge to the next: beyond, it is not looked for.
+constexpr int LongestWalk = 64;
 
 // About how the time divides.
 constexpr double VerticesShare = 0.55;
@@ -118,9 +120,11 @@ struct Stopped
 class MapMaker
 {
 public:
-  MapMaker(const SnappedSegments& segments, const std::function<bool(double)>& progress)
+  MapMaker(
+    const SnappedSegments& segments, const std::function<bool(double)>& progress, double sideReach)
     : Segments(segments)
     , Progress(progress)
+    , Reach(sideReach)
   {}
 
   PlanarMap Make(int samplesPerCell, bool diagonals)
@@ -389,7 +393,7 @@ private:
     const Vec2 middle = 0.5 * (p + q);
     const Vec2 along = (side == 0 ? 1.0 : -1.0) * (q - p).normalized();
     const Vec2 way(-along[1], along[0]);
-    double free = 2.0 * SideReach;
+    double free = 2.0 * this->Reach;
     if (!this->IsFlat())
     {
       Face face = this->Beside[edge][side];
@@ -399,8 +403,14 @@ private:
       {
         ++index;
       }
-      for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face);)
+      int passed = 0;
+      for (double reached = 0.0; reached < free && !this->Mesh.is_infinite(face); ++passed)
       {
+        if (passed == LongestWalk)
+        {
+          free = reached;
+          break;
+        }
         const Vec2 apex = Place(face->vertex(index)) - middle;
         if (std::abs(Cross(way, apex)) <= 1e-9 * (1.0 + apex.norm()))
         {
@@ -530,6 +540,7 @@ private:
 
   const SnappedSegments& Segments;
   const std::function<bool(double)>& Progress;
+  double Reach; // Of samples beside edges.
   Triangulation Mesh;
   std::vector<Vertex> Vertices;
   std::vector<std::int32_t> Rank;          // of vertices, in the order of places
@@ -542,12 +553,12 @@ private:
 } // namespace
 
 PlanarMap MakePlanarMap(const SnappedSegments& segments, int samplesPerCell,
-  const std::function<bool(double)>& progress, bool diagonals)
+  const std::function<bool(double)>& progress, bool diagonals, double sideReach)
 {
   CheckInput(segments, samplesPerCell);
   try
   {
-    return MapMaker(segments, progress).Make(samplesPerCell, diagonals);
+    return MapMaker(segments, progress, sideReach).Make(samplesPerCell, diagonals);
   }
   catch (const Stopped&)
   {

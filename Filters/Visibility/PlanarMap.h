@@ -28,7 +28,7 @@ struct PlanarDiagonal
   std::int32_t Cell = 0;
 };
 
-/// See PlanarMap::SideSamples; pixels.
+/// The default of how far PlanarMap::SideSamples go; pixels.
 inline constexpr double SideReach = 4.0;
 
 /// The cells of an arrangement of edges.
@@ -39,7 +39,7 @@ struct PlanarMap
   /// For each edge the cell to the left and to the right of its way from Start to End.
   std::vector<std::array<std::int32_t, 2>> Sides;
   /// A point in the cell beside the edge, on each side: on the perpendicular through the edge's middle,
-  /// half way to the next edge, but SideReach away at most; the radius is the distance from the edge
+  /// half way to the next edge, but so far away at most; the radius is the distance from the edge
   /// (another edge may pass nearer).
   std::vector<std::array<PlanarSample, 2>> SideSamples;
   /// Area of each cell without its holes; infinity for cell 0.
@@ -56,10 +56,11 @@ struct PlanarMap
 
 /// The cells of `segments`, the edges of which must not cross or touch other than in vertices, as
 /// SnapRound makes them; paths are not used. `samplesPerCell` >= 1: the most samples of a cell.
-/// `diagonals`: make PlanarMap::Diagonals, too. `progress` is called with the share done; false: stop. Throws Error if samplesPerCell < 1, a
+/// `diagonals`: make PlanarMap::Diagonals, too. `sideReach`: of PlanarMap::SideSamples. `progress` is called with the share done; false: stop. Throws Error if samplesPerCell < 1, a
 /// coordinate exceeds GridLimit, vertices are equal, an edge names a vertex that isn't there, edges
 /// aren't pairs Start < End in increasing order, or edges cross or pass through vertices.
 PlanarMap MakePlanarMap(const SnappedSegments& segments, int samplesPerCell = 1,
-  const std::function<bool(double)>& progress = nullptr, bool diagonals = false);
+  const std::function<bool(double)>& progress = nullptr, bool diagonals = false,
+  double sideReach = SideReach);
 
 } // namespace nurbs

@@ -20,7 +20,7 @@ namespace nurbs
 struct SettledRegions
 {
   std::vector<RegionLoop> Visible, Hidden;
-  /// Cells that are seen at one of their points and not at another one: a line is missing there.
+  /// Places where what is seen and what is not are not told apart to the precision (FaceCells::Look).
   std::int64_t Unsettled = 0;
 };
 
@@ -33,10 +33,11 @@ public:
   RegionCells(const ViewLines& lines, const ImagePlane& image, const RayCaster& caster,
     double precision, bool bothSides);
 
-  /// @param traced the borders that were taken back from the image; they need not be simple.
+  /// @param traced the borders that were taken back from the image; they need not be simple. Where they
+  /// are doubtful, what is beside shadows is looked at.
   /// @param hidden make SettledRegions::Hidden, too.
   SettledRegions Settle(
-    std::int64_t face, const std::vector<RegionLoop>& traced, bool hidden) const;
+    std::int64_t face, const TracedRegion& traced, bool hidden) const;
 
   /// True if the face shows a point, given by its (u, v), to the viewer.
   bool IsSeen(std::int64_t face, const Vec2& uv) const;

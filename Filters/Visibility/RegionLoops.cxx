@@ -13,6 +13,9 @@ namespace nurbs
 namespace
 {
 
+// Largest distance of a shadow's chords from it, on the surface, in precisions: the line that casts it is
+// not exact either.
+constexpr double ShadowChord = 0.5;
 constexpr int MaxShadowDepth = 14; // Halvings of a shadow's chord.
 // Chords longer than so many pixels are halved at least so often: a wavy surface may meet the middle.
 constexpr double SureLength = 64.0;
@@ -166,8 +169,8 @@ public:
   {}
 
   RegionLoop Lift(const std::vector<HalfEdge>& loop);
-  /// Chords of shadows, so far, whose middle is not found on the surface nor near in the image.
-  std::int64_t Unlifted() const { return this->UnliftedChords; }
+  /// As TracedRegion::Doubtful, so far.
+  std::int64_t Doubtful() const { return this->DoubtfulPlaces; }
 
 private:
   // A half-edge, and the line of the face that it is a part of, or the one that casts a shadow.
@@ -203,12 +206,18 @@ private:
     Vec2 UV;
   };
 
+  /// How far off it is in the image.
+  double Miss(const ShadowPoint& point) const
+  {
+    return (this->Image.Project(this->Point(point.UV)) - point.Image).norm();
+  }
   void RefineShadow(
     const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out);
   Vec2 Seed(HalfEdge half) const;
   RegionPiece Bridge(const Vec2& from, const Vec2& to) const;
   void DropExcursions(RegionLoop& loop) const;
-  void Close(RegionLoop& loop) const;
+  bool IsAtOnePlace(const Vec2& from, const Vec2& to) const;
+  void Close(RegionLoop& loop);
   /// On different sides of a seam.
   bool IsFar(const Vec2& a, const Vec2& b) const
   {
@@ -230,7 +239,7 @@ private:
   double Precision;
   std::int64_t FaceIndex;
   const SurfaceView& Surface;
-  std::int64_t UnliftedChords = 0;
+  std::int64_t DoubtfulPlaces = 0;
 };
 
 // The use of an edge that has the face on the half-edge's left: of the two of a seam, the one whose loop
@@ -375,10 +384,6 @@ Vec2 RegionLifter::Seed(HalfEdge half) const
 void RegionLifter::RefineShadow(
   const ShadowPoint& a, const ShadowPoint& b, int sheet, int depth, std::vector<Vec2>& out)
 {
-  if (depth == 0)
-  {
-    return;
-  }
   const Vec2 straight = 0.5 * (a.UV + b.UV);
   ShadowPoint middle{ 0.5 * (a.Image + b.Image), straight };
   if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
@@ -386,15 +391,19 @@ void RegionLifter::RefineShadow(
     middle.UV = a.UV;
     if (!this->Image.Lift(this->Surface, middle.Image, this->Precision, sheet, middle.UV))
     {
-      const double miss = (this->Image.Project(this->Point(straight)) - middle.Image).norm();
-      this->UnliftedChords += miss > this->Precision;
+      this->DoubtfulPlaces += this->Miss({ middle.Image, straight }) > this->Precision;
       return;
     }
   }
-  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= this->Precision &&
+  if ((this->Point(middle.UV) - this->Point(straight)).norm() <= ShadowChord * this->Precision &&
     (depth <= MaxShadowDepth - SureHalvings ||
       (b.Image - a.Image).norm() <= SureLength * this->Map.Pixel))
   {
+    return;
+  }
+  if (depth == 0)
+  {
+    ++this->DoubtfulPlaces; // It jumps to another sheet.
     return;
   }
   this->RefineShadow(a, middle, sheet, depth - 1, out);
@@ -416,10 +425,7 @@ void RegionLifter::AddShadow(
     {
       ShadowPoint other{ point.Image, before };
       this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
-      const auto miss = [&](const ShadowPoint& one) {
-        return (this->Image.Project(this->Point(one.UV)) - one.Image).norm();
-      };
-      point = miss(other) < miss(point) ? other : point;
+      point = this->Miss(other) < this->Miss(point) ? other : point;
     }
   };
   RegionPiece piece;
@@ -435,6 +441,7 @@ void RegionLifter::AddShadow(
       lift(
         seed, isFirst ? seed : EndOfPiece(this->Lines.Whole.Data, out.back(), true), sheet, before);
       piece.Polyline.push_back(before.UV);
+      this->DoubtfulPlaces += this->Miss(before) > this->Precision;
     }
     ShadowPoint next{ image(steps[k], steps[k].To), Vec2::Zero() };
     lift(seed, before.UV, sheet, next);
@@ -443,9 +450,9 @@ void RegionLifter::AddShadow(
       // Beyond a seam; its border is as near to the image point, within a few pixels.
       ShadowPoint other{ next.Image, before.UV };
       this->Image.Lift(this->Surface, other.Image, this->Precision, sheet, other.UV);
-      const double miss = (this->Image.Project(this->Point(other.UV)) - other.Image).norm();
-      next = miss <= SeamReach * this->Precision ? other : next;
+      next = this->Miss(other) <= SeamReach * this->Precision ? other : next;
     }
+    this->DoubtfulPlaces += this->Miss(next) > this->Precision;
     this->RefineShadow(before, next, sheet, MaxShadowDepth, piece.Polyline);
     piece.Polyline.push_back(next.UV);
     before = next;
@@ -514,9 +521,18 @@ void RegionLifter::DropExcursions(RegionLoop& loop) const
   }
 }
 
+// True if the straight way from one point to another is a point in the image, as poles and edges that are
+// seen end-on are.
+bool RegionLifter::IsAtOnePlace(const Vec2& from, const Vec2& to) const
+{
+  const Vec2 image = this->Image.Project(this->Point(from));
+  return this->Miss({ image, 0.5 * (from + to) }) <= this->Precision &&
+    this->Miss({ image, to }) <= this->Precision;
+}
+
 // Pieces that do not quite meet: a polyline is moved to the other piece's end; if there is none, or
 // the gap is wide (along a pole, or an edge that is seen end-on), a straight piece closes it.
-void RegionLifter::Close(RegionLoop& loop) const
+void RegionLifter::Close(RegionLoop& loop)
 {
   RegionLoop out;
   for (std::size_t k = 0; k < loop.size(); ++k)
@@ -547,6 +563,7 @@ void RegionLifter::Close(RegionLoop& loop) const
     if (!joined)
     {
       out.push_back(this->Bridge(end, start));
+      this->DoubtfulPlaces += !this->IsAtOnePlace(end, start);
     }
   }
   // What the first piece became when the last one was joined to it.
@@ -618,7 +635,7 @@ std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane&
       {
         out[f].Loops.push_back(lifter.Lift(loop));
       }
-      out[f].Unlifted = lifter.Unlifted();
+      out[f].Doubtful = lifter.Doubtful();
     }
   });
   return out;

@@ -32,12 +32,12 @@ Vec2 EndOfPiece(const Model& model, const RegionPiece& piece, bool last);
 struct TracedRegion
 {
   std::vector<RegionLoop> Loops;
-  /// Chords of shadows that stay straight because their middle is not found on the surface, and that
-  /// are farther than the precision from it in the image.
-  std::int64_t Unlifted = 0;
+  /// Points and chords of shadows that are not found on the surface where they are in the image, to the
+  /// precision, and gaps that are closed: what is beside shadows must be looked at.
+  std::int64_t Doubtful = 0;
 };
 
-/// The regions of all faces. `precision`: largest distance of chords of shadows from the
+/// The regions of all faces. `precision`: twice the largest distance of chords of shadows from the
 /// exact curve on the surface. `bothSides`: what is seen from behind is visible, too.
 std::vector<TracedRegion> TraceRegions(const ViewLines& lines, const ImagePlane& image,
   const RayCaster& caster, const FrontMap& map, double precision, bool bothSides,

@@ -264,9 +264,9 @@ void RegionMaker::FillFace(const RegionCells& cells, std::int64_t index, TracedR
   }
   else
   {
-    settled = cells.Settle(index, traced.Loops, this->Options.HiddenRegions);
+    settled = cells.Settle(index, traced, this->Options.HiddenRegions);
     DropFlatLoops(model, index, settled.Visible);
-    face.IsInexact = traced.Unlifted + settled.Unsettled > 0;
+    face.IsInexact = settled.Unsettled > 0;
     face.IsWhole = IsWhole(model, index, settled.Visible);
   }
   if (!settled.Visible.empty())

@@ -42,8 +42,8 @@ struct FaceRegion
 {
   std::vector<RegionLoop> Loops; ///< Empty: no part of the face.
   bool IsWhole = false;          ///< The loops are those of the face.
-  /// A part of the border was not found as it should be, and runs about where it must be: see
-  /// TracedRegion::Unlifted and SettledRegions::Unsettled.
+  /// A part of the border was not found to the precision, and runs about where it must be: see
+  /// SettledRegions::Unsettled.
   bool IsInexact = false;
   double Area = 0.0; ///< Of the face; 0 if nothing of it is visible.
   double VisibleArea = 0.0;

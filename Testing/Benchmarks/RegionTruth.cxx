@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <random>
 
 namespace truth
@@ -16,7 +17,12 @@ namespace
 
 /// Of the size: surfaces that are nearer to each other are at the same place.
 constexpr double SamePlace = 1e-6;
+/// Chords of borders, as a share of the precision, and how often they are halved at most.
+constexpr double ChordShare = 0.05;
+constexpr int MaxDepth = 12;
 constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+using UVCurve = std::function<Vec2(double)>;
 
 void ChooseAxes(ImageView& view)
 {
@@ -221,20 +227,29 @@ bool RegionTruth::IsBesideAnyBorder(const Vec3& point) const
 
 void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const
 {
-  constexpr int Parts = 8; // Of a knot span: borders are lifted to the surface.
+  constexpr int Parts = 8; // Of a knot span, at least: borders are lifted to the surface.
   if (face.Geometry.Size() == 0)
   {
     return; // The face has an error.
   }
-  Vec3 before = Vec3::Zero();
-  const auto add = [&](const Vec2& uv, bool first) {
-    const Vec3 point = nurbs::Evaluate(face.Geometry, uv[0], uv[1]);
-    if (!first)
+  const auto pointAt = [&](const Vec2& uv) { return nurbs::Evaluate(face.Geometry, uv[0], uv[1]); };
+  const std::function<void(const UVCurve&, double, double, int)> add =
+    [&](const UVCurve& curve, double s, double t, int depth) {
+      const double middle = 0.5 * (s + t);
+      const Vec3 from = pointAt(curve(s)), to = pointAt(curve(t)), exact = pointAt(curve(middle));
+      if (depth > 0 && (exact - 0.5 * (from + to)).norm() > ChordShare * this->Precision)
+      {
+        add(curve, s, middle, depth - 1);
+        add(curve, middle, t, depth - 1);
+        return;
+      }
+      border.push_back({ this->View.Project(from), this->View.Project(to), this->View.Scale(to) });
+    };
+  const auto addParts = [&](const UVCurve& curve, int parts) {
+    for (int k = 0; k < parts; ++k)
     {
-      border.push_back(
-        { this->View.Project(before), this->View.Project(point), this->View.Scale(point) });
+      add(curve, double(k) / parts, double(k + 1) / parts, MaxDepth);
     }
-    before = point;
   };
   for (std::int64_t l = face.FirstLoop; l < face.FirstLoop + face.LoopCount; ++l)
   {
@@ -244,10 +259,7 @@ void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& borde
       for (const nurbs::BezierCurve<2>& piece :
         nurbs::ToBezier(this->Regions.TrimCurves[c].Geometry))
       {
-        for (int k = 0; k <= Parts; ++k)
-        {
-          add(piece.Evaluate(static_cast<double>(k) / Parts), k == 0);
-        }
+        addParts([&](double t) { return Vec2(piece.Evaluate(t)); }, Parts);
       }
     }
   }
@@ -256,12 +268,9 @@ void RegionTruth::AddBorder(const nurbs::Face& face, std::vector<Segment>& borde
     { u.Min, v.Min } };
   for (int side = 0; side < 4 && face.LoopCount == 0; ++side)
   {
-    const int parts = Parts * 8 * face.Geometry.Count[side % 2];
-    for (int k = 0; k <= parts; ++k)
-    {
-      const double part = static_cast<double>(k) / parts;
-      add(corners[side] + part * (corners[side + 1] - corners[side]), k == 0);
-    }
+    addParts(
+      [&](double t) { return Vec2(corners[side] + t * (corners[side + 1] - corners[side])); },
+      Parts * face.Geometry.Count[side % 2]);
   }
 }
 
@@ -277,9 +286,28 @@ double RegionTruth::DistanceToBorder(std::int64_t face, const Vec3& point) const
   return nearest;
 }
 
-void RegionTruth::Judge(
-  const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const
+// True if the tolerance of edges of the face, or of the one in front, is what the point depends on.
+bool RegionTruth::IsBridged(const nurbs::RayHit& hit, const nurbs::RayHit& front) const
 {
+  if (&hit == &front && !this->AreHidden && !this->Caster.GetTrims().Inside(hit.Face, hit.U, hit.V))
+  {
+    return true;
+  }
+  const double reach = 2.0 * std::max(this->Tolerances[hit.Face], this->Tolerances[front.Face]);
+  for (std::size_t face = 0; face < this->Borders.size() && reach > 0.0; ++face)
+  {
+    if (this->DistanceToBorder(std::int64_t(face), hit.Point) <= this->Precision + reach)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void RegionTruth::Judge(
+  const nurbs::RayHit& hit, const nurbs::RayHit& front, RegionCheck& check, std::size_t list) const
+{
+  const bool isFront = &hit == &front;
   bool inside = false;
   for (const std::int64_t region : this->RegionsOf[hit.Face])
   {
@@ -302,7 +330,7 @@ void RegionTruth::Judge(
     ++check.Narrow;
     return;
   }
-  if (this->IsCoincident(hit))
+  if (this->IsBridged(hit, front) || this->IsCoincident(hit))
   {
     ++check.Coincident;
     return;
@@ -344,7 +372,7 @@ RegionCheck RegionTruth::Check(std::int64_t rays, std::size_t list) const
         ++part.Rays;
         for (std::size_t k = 0; k < hits.size(); ++k)
         {
-          this->Judge(hits[k], k == 0, part, list);
+          this->Judge(hits[k], hits[0], part, list);
         }
       }
       const std::lock_guard<std::mutex> lock(mutex);

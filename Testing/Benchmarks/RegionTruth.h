@@ -62,7 +62,9 @@ struct RegionCheck
   std::int64_t Wrong = 0;  ///< All others.
   /// Neither near nor wrong: beyond the precision, but another face lies at the same place, to a
   /// millionth of the size or twice the tolerance of the edges of either. Which one is in front is
-  /// not told by such a file.
+  /// not told by such a file. Or the ray meets the face beyond its own border, in a gap to another one
+  /// that the edges' tolerance bridges (RayCaster.h), where no region can reach; or is as near to a border
+  /// as twice the tolerance of the edges of its face, or of the face in front, and the precision.
   std::int64_t Coincident = 0;
   std::int64_t MissedFaces = 0; ///< Wrong hits on faces that have no region at all.
   double Worst = 0.0; ///< The largest finite distance of a disagreement, over the precision.
@@ -92,7 +94,10 @@ private:
     double Scale;
   };
   void AddBorder(const nurbs::Face& face, std::vector<Segment>& border) const;
-  void Judge(const nurbs::RayHit& hit, bool isFront, RegionCheck& check, std::size_t list) const;
+  /// `front` is the ray's first hit, `hit` itself if that is it.
+  void Judge(const nurbs::RayHit& hit, const nurbs::RayHit& front, RegionCheck& check,
+    std::size_t list) const;
+  bool IsBridged(const nurbs::RayHit& hit, const nurbs::RayHit& front) const;
   bool IsCoincident(const nurbs::RayHit& hit) const;
   double DistanceToBorder(std::int64_t face, const nurbs::Vec3& point) const;
   bool IsBesideAnyBorder(const nurbs::Vec3& point) const;

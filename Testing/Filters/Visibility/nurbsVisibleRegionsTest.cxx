@@ -233,6 +233,39 @@ TEST(VisibleRegions, AreasAtGrazingViews)
 }
 
 // Hidden and visible regions share a face out.
+// A generator that is seen end-on is one point with the apex, where the rim touches it: no line divides the
+// image there, and the domain is not to lose what lies on either side of it.
+TEST(VisibleRegions, ConeAlongAGenerator)
+{
+  Case cone;
+  nurbs::AddCone(cone.Builder, 1.0, 2.0, false);
+  cone.Run(Direction(0.5, 0.0, 1.0), 2e-3);
+  cone.Check(2e-3, 60);
+  EXPECT_NEAR(cone.VisibleArea(), PI * std::sqrt(5.0), 1e-3);
+}
+
+// Into an open tube, nearly along it: the far rim passes a few pixels beside the shadow of the near one.
+TEST(VisibleRegions, IntoATube)
+{
+  const struct
+  {
+    double Height, Slope, Angle, Precision, Tolerance;
+  } cases[] = { { 0.5, 0.35, 1.7, 1e-3, 2e-3 }, { 0.5, 0.23, 0.3, 1e-4, 1e-3 } };
+  for (const auto& one : cases)
+  {
+    Case tube;
+    nurbs::AddCylinder(tube.Builder, 1.0, one.Height, false);
+    tube.Run(Direction(one.Slope * std::cos(one.Angle), one.Slope * std::sin(one.Angle), 1.0),
+      one.Precision);
+    // Half of the outside; and of the inside what is as near to the rim as the ray through it reaches:
+    // the integral of min(height, 2 cos(x) / slope).
+    const double x = std::asin(one.Slope * one.Height / 2.0);
+    const double exact =
+      2.0 * PI * one.Height - 2.0 * one.Height * x + 4.0 / one.Slope * (1.0 - std::cos(x));
+    EXPECT_NEAR(tube.VisibleArea(), exact, one.Tolerance) << "slope " << one.Slope;
+  }
+}
+
 TEST(VisibleRegions, HiddenIsTheRest)
 {
   for (const Viewer& viewer : Views)
