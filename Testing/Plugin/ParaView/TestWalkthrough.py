@@ -124,7 +124,7 @@ def play():
     command += ["--data-directory=" + os.path.dirname(SCREW)]
     command += ["--test-script=" + os.path.join(OUT, "walkthrough.xml"), "--exit"]
     done = subprocess.run(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=280
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=540
     )
     return done.stdout.decode(errors="replace")
 
