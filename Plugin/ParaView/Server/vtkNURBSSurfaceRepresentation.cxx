@@ -15,8 +15,8 @@
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNURBSFaceMarks.h"
+#include "vtkNURBSLookLegend.h"
 #include "vtkNURBSMapper.h"
-#include "vtkNURBSModel.h"
 #include "vtkNURBSModelBlocks.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -34,7 +34,6 @@
 #include "vtkSelectionNode.h"
 #include "vtkSelectionRepresentation.h"
 #include "vtkTextProperty.h"
-#include "vtkUnstructuredGrid.h"
 #include "vtkView.h"
 
 #include <algorithm>
@@ -139,68 +138,6 @@ vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
   return origin;
 }
 
-// The unit of the points, as the first model in what is drawn tells it.
-std::string UnitOf(vtkDataObject* drawn)
-{
-  if (auto* tree = vtkDataObjectTree::SafeDownCast(drawn))
-  {
-    for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::SkipEmptyNodes))
-    {
-      const std::string unit = UnitOf(child);
-      if (!unit.empty())
-      {
-        return unit;
-      }
-    }
-    return "";
-  }
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(drawn);
-  return grid ? vtkNURBSModel::GetLengthUnit(grid) : "";
-}
-
-// What a look shows, with its unit; "" if it is nothing that a legend could tell.
-std::string TitleOf(int look, const std::string& unit)
-{
-  const std::string length = unit.empty() ? "length" : unit;
-  switch (look)
-  {
-    case vtkNURBSMapper::MEAN_CURVATURE:
-      return "Mean\ncurvature\n1 / " + length;
-    case vtkNURBSMapper::GAUSSIAN_CURVATURE:
-      return "Gaussian\ncurvature\n1 / " + length + "^2";
-    case vtkNURBSMapper::MINIMUM_CURVATURE:
-      return "Minimum\ncurvature\n1 / " + length;
-    case vtkNURBSMapper::MAXIMUM_CURVATURE:
-      return "Maximum\ncurvature\n1 / " + length;
-    case vtkNURBSMapper::DRAFT_ANGLE:
-      return "Draft\nangle\ndegrees";
-    default:
-      return "";
-  }
-}
-
-vtkSmartPointer<vtkScalarBarActor> MakeLegend()
-{
-  auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
-  bar->SetVisibility(0);
-  // The title is centred above the bar; axes of orientation are below.
-  bar->GetPositionCoordinate()->SetCoordinateSystemToViewport();
-  bar->SetPosition(35.0, 130.0);
-  bar->SetPosition2(0.14, 0.5);
-  bar->SetVerticalTitleSeparation(10);
-  bar->SetBarRatio(0.25);
-  bar->SetNumberOfLabels(5);
-  bar->SetUnconstrainedFontSize(true);
-  for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() })
-  {
-    text->SetFontSize(14);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-  }
-  return bar;
-}
-
 // Tells what has no question of its own.
 struct Labels : vtkDataLabelRepresentation
 {
@@ -288,7 +225,7 @@ vtkNURBSSurfaceRepresentation::vtkNURBSSurfaceRepresentation()
   mapper->SetCompositeDataDisplayAttributes(attributes);
   this->Actor->SetMapper(mapper);
   this->SuppressLOD = true;
-  this->Legend = MakeLegend();
+  this->Legend = vtkNURBSLookLegend::Make();
 }
 
 vtkNURBSSurfaceRepresentation::~vtkNURBSSurfaceRepresentation() = default;
@@ -324,7 +261,7 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     }
     this->Actor->SetEnableLOD(0);
     this->UpdateColoringParameters();
-    this->UpdateLegend();
+    vtkNURBSLookLegend::Update(this->Legend, this->GetNURBSMapper(), this->ShowLegend);
     return 1;
   }
   if (request == vtkPVView::REQUEST_UPDATE())
@@ -610,25 +547,6 @@ void vtkNURBSSurfaceRepresentation::SetVisibility(bool visible)
   if (!visible)
   {
     this->Legend->SetVisibility(0);
-  }
-}
-
-void vtkNURBSSurfaceRepresentation::UpdateLegend()
-{
-  vtkNURBSMapper* mapper = this->GetNURBSMapper();
-  vtkDataObject* drawn = mapper->GetInputDataObject(0, 0);
-  const std::string title = TitleOf(mapper->GetLook(), UnitOf(drawn));
-  double bounds[6];
-  mapper->GetBounds(bounds);
-  const bool shown =
-    this->ShowLegend && !title.empty() && vtkMath::AreBoundsInitialized(bounds) != 0;
-  this->Legend->SetVisibility(shown);
-  if (shown)
-  {
-    this->Legend->SetLookupTable(mapper->GetLookColors());
-    this->Legend->SetTitle(title.c_str());
-    this->Legend->SetLabelFormat(
-      mapper->GetLook() == vtkNURBSMapper::DRAFT_ANGLE ? "%.0f" : "%.3g");
   }
 }
 

@@ -127,7 +127,6 @@ private:
   void ShowSelectedFaces();
   void ShowDeliveredSelection(vtkDataObject* delivered);
   void UpdateLookTable();
-  void UpdateLegend();
   bool ColorsByArray(const char*& name, bool& direct);
 
   bool UseModelColors = true;
