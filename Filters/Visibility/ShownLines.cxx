@@ -166,15 +166,16 @@ bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) co
     return false;
   }
   const Vec3 point = this->Middle(line, step);
-  const FrontHit beside = LookAt(this->Caster, this->Image, this->Map.Beside(step.Edge, side));
+  const Vec2 look = this->Map.Beside(step.Edge, side);
+  const FrontHit beside = LookAt(this->Caster, this->Image, look);
   // Of a surface that turns away with a radius up to the image's size.
   const double reach = std::sqrt(2.0 * SideReach * this->Map.Pixel * this->Size);
-  if (beside.Face < 0 ||
-    std::abs(this->Image.Depth(beside.Point) - this->Image.Depth(point)) > reach)
-  {
-    return false;
-  }
-  if (!this->IsNeighbour(line, beside.Face))
+  const double behind =
+    beside.Face < 0 ? reach : this->Image.Depth(beside.Point) - this->Image.Depth(point);
+  // A look within a pixel of the line may miss its surface, where the line is not exact.
+  const bool isMissed =
+    behind >= reach && (look - this->Image.Project(point)).norm() <= this->Map.Pixel;
+  if (!isMissed && (std::abs(behind) > reach || !this->IsNeighbour(line, beside.Face)))
   {
     return false;
   }
