@@ -237,7 +237,7 @@ bool ShownLines::FindOf(const ViewLine& line, const std::vector<LineStep>& steps
   const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
   const bool shows =
     face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
-  const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
+  const bool isBare = !shows && this->IsBare(line, best, side);
   for (std::size_t k = first; k < last; ++k)
   {
     LineSource& source = this->Map.Sources[steps[k].Source];
