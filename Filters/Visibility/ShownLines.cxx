@@ -180,8 +180,10 @@ bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) co
     return false;
   }
   const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
+  // Where no surface beside the line is known to be its own, only what is at the same place is.
+  const double depth = isMissed || this->Map.Cells[cell].Face < 0 ? 1.0 : BareDepth;
   return front.Face < 0 ||
-    this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
+    this->Image.Depth(point) - this->Image.Depth(front.Point) <= depth * this->Map.Pixel;
 }
 
 // True if no face of an edge is seen, because all are edge-on.
