@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CompletedModel.h"
 
-#include "VertexSets.h"
+#include "DegenerateEdge.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <numeric>

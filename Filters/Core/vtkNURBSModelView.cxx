@@ -2,6 +2,7 @@
 #include "vtkNURBSModelView.h"
 
 #include "vtkNURBSModelNames.h"
+#include "vtkNURBSParallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -9,7 +10,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -57,13 +57,6 @@ bool IsReal(vtkDataArray* array)
 bool IsContiguous(vtkDataArray* array)
 {
   return array->HasStandardMemoryLayout();
-}
-
-/// vtkSMPTools as the kernels' parallel loop.
-void SMPFor(std::int64_t first, std::int64_t last,
-  const std::function<void(std::int64_t, std::int64_t)>& body)
-{
-  vtkSMPTools::For(first, last, [&body](vtkIdType begin, vtkIdType end) { body(begin, end); });
 }
 
 } // namespace
@@ -252,7 +245,7 @@ vtkNURBSModelView::vtkNURBSModelView(
     of.Around = nurbs::Box3(
       nurbs::Vec3(bounds[0], bounds[2], bounds[4]), nurbs::Vec3(bounds[1], bounds[3], bounds[5]));
   }
-  content.Assembled = nurbs::AssembleModel(content.Arrays, of, SMPFor);
+  content.Assembled = nurbs::AssembleModel(content.Arrays, of, vtkNURBSParallelFor);
   std::vector<ModelProblem>& problems = content.Assembled.Problems;
   problems.insert(problems.begin(), content.ArrayProblems.begin(), content.ArrayProblems.end());
   content.CheckCells(grid);

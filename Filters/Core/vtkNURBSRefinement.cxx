@@ -6,6 +6,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelNames.h"
 #include "vtkNURBSModelView.h"
+#include "vtkNURBSNewArray.h"
 #include "vtkNURBSParallel.h"
 #include "vtkNURBSPieces.h"
 
@@ -85,16 +86,6 @@ nurbs::ParallelFor LoopOver(std::size_t faces)
   return faces < FewFaces ? nurbs::ParallelFor(nurbs::SerialFor) : vtkNURBSParallelFor;
 }
 
-template <typename ArrayType>
-vtkSmartPointer<ArrayType> NewArray(const char* name, int components, vtkIdType tuples)
-{
-  auto array = vtkSmartPointer<ArrayType>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
 /// Puts new nets in the place of a model's, in the arrays that describe them. Cells that have no
 /// new net, bad ones among them, keep theirs.
 class NetWriter
@@ -164,13 +155,13 @@ private:
 
   void WritePoints()
   {
-    const auto xyz = NewArray<vtkDoubleArray>(nullptr, 3, this->Points);
+    const auto xyz = vtkNURBSNewArray<vtkDoubleArray>(nullptr, 3, this->Points);
     vtkSmartPointer<vtkDoubleArray> weights;
     double* to = xyz->GetPointer(0);
     double* toWeight = nullptr;
     if (this->Weights)
     {
-      weights = NewArray<vtkDoubleArray>(names::RationalWeights, 1, this->Points);
+      weights = vtkNURBSNewArray<vtkDoubleArray>(names::RationalWeights, 1, this->Points);
       toWeight = weights->GetPointer(0);
     }
     for (std::size_t id = 0; id < this->NewId.size(); ++id)
@@ -207,13 +198,14 @@ private:
   void WriteCells()
   {
     const vtkIdType cells = this->Grid->GetNumberOfCells();
-    const auto offsets = NewArray<vtkTypeInt64Array>(nullptr, 1, cells + 1);
+    const auto offsets = vtkNURBSNewArray<vtkTypeInt64Array>(nullptr, 1, cells + 1);
     offsets->SetValue(0, 0);
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
       offsets->SetValue(cell + 1, offsets->GetValue(cell) + this->SizeOf(cell));
     }
-    const auto connectivity = NewArray<vtkTypeInt64Array>(nullptr, 1, offsets->GetValue(cells));
+    const auto connectivity =
+      vtkNURBSNewArray<vtkTypeInt64Array>(nullptr, 1, offsets->GetValue(cells));
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
       vtkTypeInt64* to = connectivity->GetPointer(offsets->GetValue(cell));
@@ -248,9 +240,9 @@ private:
       knots.push_back(oldKnots->GetComponent(k, 0));
     }
     const auto cells = vtkIdType(this->Nets.size());
-    const auto degree = NewArray<vtkIntArray>(names::Degree, 2, cells);
-    const auto size = NewArray<vtkIntArray>(names::NetSize, 2, cells);
-    const auto start = NewArray<vtkTypeInt64Array>(names::KnotStart, 2, cells);
+    const auto degree = vtkNURBSNewArray<vtkIntArray>(names::Degree, 2, cells);
+    const auto size = vtkNURBSNewArray<vtkIntArray>(names::NetSize, 2, cells);
+    const auto start = vtkNURBSNewArray<vtkTypeInt64Array>(names::KnotStart, 2, cells);
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
       const nurbs::DenseNet& net = this->Nets[cell];
@@ -271,7 +263,7 @@ private:
         }
       }
     }
-    const auto flat = NewArray<vtkDoubleArray>(names::Knots, 1, vtkIdType(knots.size()));
+    const auto flat = vtkNURBSNewArray<vtkDoubleArray>(names::Knots, 1, vtkIdType(knots.size()));
     std::copy(knots.begin(), knots.end(), flat->GetPointer(0));
     data->AddArray(degree);
     data->AddArray(size);

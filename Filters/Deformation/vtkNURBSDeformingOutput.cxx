@@ -8,6 +8,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSNewArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -20,15 +21,6 @@
 
 namespace
 {
-
-template <typename ArrayT, typename T>
-void AddValue(vtkFieldData* field, const char* name, T value)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  field->AddArray(array);
-}
 
 void AddRange(vtkFieldData* field, const char* name, const vtkIdType (&ends)[2])
 {
@@ -138,7 +130,7 @@ double vtkNURBSDeformingOutput::Tell(
   field->Initialize();
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), field);
   const auto count = [field](const char* name, std::int64_t value) {
-    AddValue<vtkIdTypeArray>(field, name, static_cast<vtkIdType>(value));
+    vtkNURBSAddValue<vtkIdTypeArray>(field, name, static_cast<vtkIdType>(value));
   };
   count("MovedControlPoints", report.MovedControlPoints);
   count("UpdatedVertices", report.UpdatedVertices);
@@ -150,13 +142,13 @@ double vtkNURBSDeformingOutput::Tell(
   const vtkIdType triangles[2] = { report.FirstTriangle, report.LastTriangle };
   AddRange(field, "ChangedPointRange", this->ChangedRange);
   AddRange(field, "ChangedTriangleRange", triangles);
-  AddValue<vtkDoubleArray>(field, "ErrorBound", report.ErrorBound);
-  AddValue<vtkDoubleArray>(field, "ModelGap", report.ModelGap);
-  AddValue<vtkDoubleArray>(field, "ToleranceUsed", report.ToleranceUsed);
-  AddValue<vtkDoubleArray>(field, "CompareSeconds", report.CompareSeconds);
-  AddValue<vtkDoubleArray>(field, "MoveSeconds", report.MoveSeconds);
-  AddValue<vtkDoubleArray>(field, "AdaptSeconds", report.AdaptSeconds);
-  AddValue<vtkDoubleArray>(field, "RebuildSeconds", report.RebuildSeconds);
-  AddValue<vtkDoubleArray>(field, "OutputSeconds", seconds);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "ErrorBound", report.ErrorBound);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "ModelGap", report.ModelGap);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "ToleranceUsed", report.ToleranceUsed);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "CompareSeconds", report.CompareSeconds);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "MoveSeconds", report.MoveSeconds);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "AdaptSeconds", report.AdaptSeconds);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "RebuildSeconds", report.RebuildSeconds);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "OutputSeconds", seconds);
   return seconds;
 }

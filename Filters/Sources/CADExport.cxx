@@ -93,12 +93,20 @@ public:
 
   void Run()
   {
-    std::vector<TDF_Label> labels;
+    std::vector<TDF_Label> labels, parts(this->Content.Parts.size());
     for (const CADNode& node : this->Content.Nodes)
     {
-      const TDF_Label label =
-        node.Part >= 0 ? this->AddPart(this->Content.Parts[node.Part]) : this->Shapes->NewShape();
-      TDataStd_Name::Set(label, ToName(node.Name));
+      TDF_Label label = node.Part >= 0 ? parts[node.Part] : TDF_Label();
+      if (label.IsNull())
+      {
+        label =
+          node.Part >= 0 ? this->AddPart(this->Content.Parts[node.Part]) : this->Shapes->NewShape();
+        TDataStd_Name::Set(label, ToName(node.Name));
+      }
+      if (node.Part >= 0)
+      {
+        parts[node.Part] = label;
+      }
       labels.push_back(label);
     }
     for (std::size_t i = 0; i < labels.size(); ++i)
@@ -107,7 +115,7 @@ public:
       if (node.Parent >= 0)
       {
         const TDF_Label use =
-          this->Shapes->AddComponent(labels[node.Parent], labels[i], TopLoc_Location());
+          this->Shapes->AddComponent(labels[node.Parent], labels[i], node.Place);
         TDataStd_Name::Set(use, ToName(node.InstanceName.empty() ? node.Name : node.InstanceName));
       }
     }
@@ -209,16 +217,24 @@ bool WriteIges(
 bool WriteBrep(
   const CADContent& content, const std::string& path, const Message_ProgressRange& range)
 {
-  if (content.Parts.size() == 1)
+  std::vector<TopoDS_Shape> shapes;
+  for (const CADNode& node : content.Nodes)
   {
-    return BRepTools::Write(content.Parts.front().Shape, path.c_str(), range);
+    if (node.Part >= 0)
+    {
+      shapes.push_back(content.Parts[node.Part].Shape.Moved(node.Place));
+    }
+  }
+  if (shapes.size() == 1)
+  {
+    return BRepTools::Write(shapes.front(), path.c_str(), range);
   }
   BRep_Builder builder;
   TopoDS_Compound all;
   builder.MakeCompound(all);
-  for (const CADPart& part : content.Parts)
+  for (const TopoDS_Shape& shape : shapes)
   {
-    builder.Add(all, part.Shape);
+    builder.Add(all, shape);
   }
   return BRepTools::Write(all, path.c_str(), range);
 }

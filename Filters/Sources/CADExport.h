@@ -5,12 +5,13 @@
 /// STEP files are of AP214 (ISO 10303-214, AUTOMOTIVE_DESIGN), which every CAD system reads, and hold
 /// all: names as UTF-8, colours of parts and faces, the tree. IGES files have entities of solids and
 /// shells (186, 514, 510, 508) and so keep which faces share an edge, and colours; their names are
-/// ASCII. BREP files hold geometry and topology only, in millimetres, the unit of all shapes here.
+/// ASCII, and each instance is written out. BREP files hold geometry and topology only, in millimetres, the unit of all shapes here.
 #pragma once
 
 #include "CADFile.h"
 #include "CADSession.h"
 
+#include <TopLoc_Location.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
@@ -31,13 +32,15 @@ struct CADPart
   std::vector<std::array<std::uint8_t, 3>> Colors; ///< sRGB, one a face; or empty.
 };
 
-/// A node of the assembly tree, parents before children.
+/// A node of the assembly tree, parents before children. Nodes with the same part are instances of it,
+/// and have one name.
 struct CADNode
 {
   std::int64_t Parent = -1; ///< -1: nothing is above it.
   std::string Name;         ///< UTF-8.
   std::string InstanceName; ///< What the node above calls it; may be empty.
   std::int64_t Part = -1;   ///< Index into Parts; -1: an assembly of the nodes below it.
+  TopLoc_Location Place;    ///< Where the part is moved to; not of a node that nothing is above.
 };
 
 struct CADContent

@@ -369,6 +369,22 @@ std::vector<double> Halve(const std::vector<double>& breaks, const std::vector<b
 
 } // namespace
 
+std::vector<double> DistinctBreaks(std::vector<double> breaks, const Interval& range)
+{
+  std::sort(breaks.begin(), breaks.end());
+  const double apart = 1e-9 * range.Length();
+  std::vector<double> distinct{ range.Min };
+  for (const double t : breaks)
+  {
+    if (t > distinct.back() + apart && t < range.Max - apart)
+    {
+      distinct.push_back(t);
+    }
+  }
+  distinct.push_back(range.Max);
+  return distinct;
+}
+
 template <int D>
 Curve<D> FitCurve(const std::function<Vec<D>(double)>& function, const std::vector<double>& breaks,
   const Vec<D>& scale, double tolerance, double& error)

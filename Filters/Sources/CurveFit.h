@@ -22,6 +22,10 @@ template <int D>
 Curve<D> FitCurve(const std::function<Vec<D>(double)>& function, const std::vector<double>& breaks,
   const Vec<D>& scale, double tolerance, double& error);
 
+/// The ends of the range and those of `breaks` between them, sorted; of those closer together than 1e-9
+/// of the range only the first.
+std::vector<double> DistinctBreaks(std::vector<double> breaks, const Interval& range);
+
 /// A surface of degree 7 x 7 through `function` over the grid of breaks, whose spans are halved in
 /// the direction that deviates more until the deviation is under `tolerance` or a direction has over
 /// 256 spans. `error` receives the largest deviation found.

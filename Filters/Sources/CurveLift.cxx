@@ -142,7 +142,9 @@ void AppendKnotCrossings(
   }
 }
 
-std::vector<double> BreaksOf(const SurfaceView& surface, const CurveView<2>& trim)
+} // namespace
+
+std::vector<double> LiftBreaks(const SurfaceView& surface, const CurveView<2>& trim)
 {
   std::vector<double> breaks;
   for (const Knot& knot : DistinctKnots(trim.Knots, trim.Degree))
@@ -150,22 +152,8 @@ std::vector<double> BreaksOf(const SurfaceView& surface, const CurveView<2>& tri
     breaks.push_back(knot.Value);
   }
   AppendKnotCrossings(surface, trim, breaks);
-  std::sort(breaks.begin(), breaks.end());
-  const Interval domain = trim.Domain();
-  const double apart = 1e-9 * domain.Length();
-  std::vector<double> distinct{ domain.Min };
-  for (const double t : breaks)
-  {
-    if (t > distinct.back() + apart && t < domain.Max - apart)
-    {
-      distinct.push_back(t);
-    }
-  }
-  distinct.push_back(domain.Max);
-  return distinct;
+  return DistinctBreaks(std::move(breaks), trim.Domain());
 }
-
-} // namespace
 
 Curve<3> IsoCurve(const SurfaceView& surface, int dir, double value)
 {
@@ -214,7 +202,7 @@ Curve<3> LiftCurve(
     const Vec2 uv = Evaluate(trim, t);
     return evaluator.Point(uv[0], uv[1]);
   };
-  Curve<3> curve = FitCurve<3>(lifted, BreaksOf(surface, trim), Vec3::Ones(), tolerance, error);
+  Curve<3> curve = FitCurve<3>(lifted, LiftBreaks(surface, trim), Vec3::Ones(), tolerance, error);
   curve.Pack();
   return curve;
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeExport.h"
 
+#include "CurveCopy.h"
 #include "CurveLift.h"
 #include "TrimLoops.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace nurbs
@@ -19,29 +20,6 @@ namespace
 constexpr double PoleShare = 1e-9;  // of the model's size: what is smaller is a point
 constexpr double NoSlack = 1.05;    // The search for the largest distance may miss it by a little.
 constexpr double StatedSlack = 1.5; // of an edge's tolerance: beyond it the curve is no good
-
-/// Sets of numbers, joined two by two.
-class DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t count)
-    : Parent(count)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  std::int64_t Find(std::int64_t x)
-  {
-    while (this->Parent[x] != x)
-    {
-      x = this->Parent[x] = this->Parent[this->Parent[x]];
-    }
-    return x;
-  }
-  void Join(std::int64_t a, std::int64_t b) { this->Parent[this->Find(a)] = this->Find(b); }
-
-private:
-  std::vector<std::int64_t> Parent;
-};
 
 class Preparer
 {
@@ -193,14 +171,7 @@ Curve<2> Preparer::Trim(const EdgeUse& use, const Interval& range) const
 {
   const CurveView<2>& view = this->Data.TrimCurves[use.Curve].Geometry;
   const Interval own = view.Domain();
-  Curve<2> trim;
-  trim.Degree = view.Degree;
-  trim.Knots.assign(view.Knots.begin(), view.Knots.end());
-  for (int i = 0; i < view.Count; ++i)
-  {
-    trim.Points.push_back(view.Point(i));
-    trim.Weights.push_back(view.Weight(i));
-  }
+  Curve<2> trim = Copy(view);
   if (own.Min != range.Min || own.Max != range.Max)
   {
     for (double& knot : trim.Knots)
@@ -209,7 +180,6 @@ Curve<2> Preparer::Trim(const EdgeUse& use, const Interval& range) const
       knot = share == 1.0 ? range.Max : range.Min + share * range.Length();
     }
   }
-  trim.Pack();
   return trim;
 }
 
@@ -264,15 +234,7 @@ void Preparer::SolveCurve(ExportEdge& edge) const
   const bool known = source.Geometry.Count > 1;
   if (known)
   {
-    const CurveView<3>& view = source.Geometry;
-    edge.Geometry.Degree = view.Degree;
-    edge.Geometry.Knots.assign(view.Knots.begin(), view.Knots.end());
-    for (int i = 0; i < view.Count; ++i)
-    {
-      edge.Geometry.Points.push_back(view.Point(i));
-      edge.Geometry.Weights.push_back(view.Weight(i));
-    }
-    edge.Geometry.Pack();
+    edge.Geometry = Copy(source.Geometry);
     edge.Tolerance = this->Deviation(edge);
     if (edge.Tolerance <= StatedSlack * source.Tolerance + 10.0 * this->Options.CurveTolerance)
     {
@@ -382,7 +344,7 @@ std::vector<std::vector<Vec3>> Preparer::CollectEnds() const
 void Preparer::MakeVertices()
 {
   std::vector<ExportEdge>& edges = this->Result.Edges;
-  DisjointSets sets(2 * edges.size());
+  UnionFind sets(2 * edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
     if (edges[i].Pole)

@@ -383,18 +383,7 @@ std::vector<double> Converter::BreaksOfTrim(
     AppendCrossings(coordinate, breaks, surface.Offset(), surface.Span(), crossings);
   }
   breaks.insert(breaks.end(), crossings.begin(), crossings.end());
-  std::sort(breaks.begin(), breaks.end());
-  const double apart = 1e-9 * range.Length();
-  std::vector<double> distinct{ range.Min };
-  for (const double x : breaks)
-  {
-    if (x > distinct.back() + apart && x < range.Max - apart)
-    {
-      distinct.push_back(x);
-    }
-  }
-  distinct.push_back(range.Max);
-  return distinct;
+  return DistinctBreaks(std::move(breaks), range);
 }
 
 /// The (u, v) curve in the parameters of edge and surface after conversion.

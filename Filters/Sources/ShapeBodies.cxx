@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeBodies.h"
 
+#include "UnionFind.h"
+
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
@@ -14,7 +16,6 @@
 #include <TopoDS_Solid.hxx>
 
 #include <algorithm>
-#include <numeric>
 
 namespace nurbs
 {
@@ -36,6 +37,7 @@ public:
   Gatherer(const std::vector<TopoDS_Face>& faces, const std::vector<BodyLink>& links)
     : Faces(faces)
     , Links(links)
+    , Joined(faces.size())
   {}
 
   Bodies Run()
@@ -48,14 +50,6 @@ public:
   }
 
 private:
-  std::int64_t Find(std::int64_t face)
-  {
-    while (this->Parent[face] != face)
-    {
-      face = this->Parent[face] = this->Parent[this->Parent[face]];
-    }
-    return face;
-  }
   void JoinFaces();
   void MakeShells();
   void FindOpenShells();
@@ -65,22 +59,18 @@ private:
 
   const std::vector<TopoDS_Face>& Faces;
   const std::vector<BodyLink>& Links;
-  std::vector<std::int64_t> Parent;
+  UnionFind Joined;                  ///< Faces.
   std::vector<std::int64_t> ShellOf; ///< One a face.
   std::vector<Shell> Shells;
 };
 
 void Gatherer::JoinFaces()
 {
-  this->Parent.resize(this->Faces.size());
-  std::iota(this->Parent.begin(), this->Parent.end(), 0);
   for (const BodyLink& link : this->Links)
   {
-    std::int64_t first = -1;
     for (const BodyUse& use : link)
     {
-      first = first < 0 ? use.Face : first;
-      this->Parent[this->Find(use.Face)] = this->Find(first);
+      this->Joined.Join(use.Face, link.front().Face);
     }
   }
 }
@@ -92,7 +82,7 @@ void Gatherer::MakeShells()
   std::vector<std::int64_t> ofRoot(this->Faces.size(), -1);
   for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
-    std::int64_t& shell = ofRoot[this->Find(static_cast<std::int64_t>(f))];
+    std::int64_t& shell = ofRoot[this->Joined.Find(static_cast<std::int64_t>(f))];
     if (shell < 0)
     {
       shell = static_cast<std::int64_t>(this->Shells.size());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeBuilder.h"
 
+#include "AnalyticForm.h"
 #include "CADSession.h"
+#include "CurveFit.h"
+#include "CurveLift.h"
 #include "EdgeExport.h"
 #include "LoopNesting.h"
 #include "ShapeBodies.h"
@@ -12,6 +15,7 @@
 #include <BRepCheck_ListIteratorOfListOfStatus.hxx>
 #include <BRepCheck_Result.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom2d_Line.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -28,6 +32,10 @@ namespace nurbs
 
 namespace
 {
+
+constexpr double SameLength = 1e-10; // relative: of parameters that are the same
+constexpr double FitShare = 0.01;    // of the tolerance of curves: what trim curves may add to it
+constexpr double FitSlack = 1.5;     // The deviation of a fit is measured at some places only.
 
 class ShapeMaker
 {
@@ -57,6 +65,7 @@ public:
     {
       return std::move(this->Result);
     }
+    this->FindForms();
     this->MakeVertices();
     this->Shapes.resize(this->Edges.Edges.size());
     this->FaceOfLoop.assign(this->Whole.Data.Loops.size(), -1);
@@ -75,15 +84,20 @@ private:
   {
     std::int64_t Edge;
     bool Reversed;
-    Handle(Geom2d_BSplineCurve) Curve;
+    Handle(Geom2d_Curve) Curve; ///< Null on a plane, where the edge's curve tells all.
   };
   using Wire = std::vector<Pcurve>;
 
   void ExportSurfaces(const Model& model);
   double MeasureSize(const Model& model) const;
+  void FindForms();
+  void KeepPatchesWithSeams();
+  bool Follows(const AnalyticCurve& form, const EdgeUse& use) const;
+  Handle(Geom2d_Line) StraightPcurve(const EdgeUse& use, double first, double& length) const;
+  Handle(Geom2d_Curve) PcurveOf(const EdgeUse& use, std::int64_t edge);
   void MakeVertices();
   void TryFace(std::size_t f);
-  std::vector<Wire> ExportWires(const std::vector<std::int64_t>& loops) const;
+  std::vector<Wire> ExportWires(std::int64_t face, const std::vector<std::int64_t>& loops);
   TopoDS_Edge& EdgeShape(std::int64_t edge);
   void AttachPcurves(const std::vector<Wire>& wires, const Handle(Geom_Surface) & surface);
   TopoDS_Face MakeFace(const std::vector<Wire>& wires, const Handle(Geom_Surface) & surface);
@@ -101,7 +115,10 @@ private:
   double Size = 0.0; ///< Diagonal of the model, in its unit.
   CompletedModel Whole;
   ExportEdges Edges;
-  std::vector<Handle(Geom_BSplineSurface)> Surfaces;
+  std::vector<Handle(Geom_Surface)> Surfaces;
+  std::vector<std::optional<AnalyticSurface>> Forms; ///< One a face.
+  std::vector<std::optional<AnalyticCurve>> Curves;  ///< One an edge.
+  std::vector<Interval> Ranges;                      ///< Of the edges.
   std::vector<TopoDS_Vertex> Vertices;
   std::vector<TopoDS_Edge> Shapes;
   std::vector<std::int64_t> FaceOfLoop; ///< Index into the result's faces, or -1.
@@ -141,6 +158,159 @@ double ShapeMaker::MeasureSize(const Model& model) const
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+/// Planes, cylinders and their kin, and lines and circles where all faces of an edge go along.
+void ShapeMaker::FindForms()
+{
+  const std::vector<Face>& faces = this->Whole.Data.Faces;
+  const std::vector<ExportEdge>& edges = this->Edges.Edges;
+  this->Forms.resize(faces.size());
+  this->Curves.resize(edges.size());
+  for (const ExportEdge& edge : edges)
+  {
+    this->Ranges.push_back(edge.Range);
+  }
+  if (!this->Options.Analytic)
+  {
+    return;
+  }
+  this->Parallel(0, static_cast<std::int64_t>(faces.size()), [&](std::int64_t i, std::int64_t end) {
+    for (; i < end && !this->Abort; ++i)
+    {
+      if (this->Result.FaceErrors[i].empty())
+      {
+        this->Forms[i] = AnalyticSurface::Recognise(faces[i].Geometry, this->Options.Scale);
+      }
+    }
+  });
+  this->KeepPatchesWithSeams();
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    if (this->Forms[f])
+    {
+      this->Surfaces[f] = this->Forms[f]->GetGeometry();
+      ++this->Result.AnalyticFaces;
+    }
+  }
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    if (edges[e].Pole)
+    {
+      double length = 0.0;
+      if (!this->StraightPcurve(edges[e].Uses.front(), 0.0, length).IsNull())
+      {
+        this->Ranges[e] = { 0.0, length };
+      }
+      continue;
+    }
+    const auto form = RecogniseCurve(edges[e].Geometry.View(), this->Options.Scale);
+    if (form && std::all_of(edges[e].Uses.begin(), edges[e].Uses.end(), [&](const EdgeUse& use) {
+          return this->Follows(*form, use);
+        }))
+    {
+      this->Curves[e] = form;
+      this->Ranges[e] = form->Range;
+    }
+  }
+}
+
+/// A disc that is a patch turned about its middle has a pole and a seam. A plane has neither.
+void ShapeMaker::KeepPatchesWithSeams()
+{
+  for (const ExportEdge& edge : this->Edges.Edges)
+  {
+    for (const EdgeUse& use : edge.Uses)
+    {
+      const auto uses = std::count_if(edge.Uses.begin(), edge.Uses.end(),
+        [&](const EdgeUse& other) { return other.Face == use.Face; });
+      std::optional<AnalyticSurface>& form = this->Forms[use.Face];
+      if (form && form->IsPlane() && (edge.Pole || uses > 1))
+      {
+        form.reset();
+      }
+    }
+  }
+}
+
+/// Whether the trim curve can be told, exactly, in the parameter of the line or circle.
+bool ShapeMaker::Follows(const AnalyticCurve& form, const EdgeUse& use) const
+{
+  const std::optional<AnalyticSurface>& surface = this->Forms[use.Face];
+  if (!surface || surface->IsPlane())
+  {
+    return surface || form.Affine;
+  }
+  double length = 0.0;
+  return !this->StraightPcurve(use, 0.0, length).IsNull() &&
+    std::abs(length - form.Range.Length()) <= SameLength * length;
+}
+
+/// A trim curve along u or v of the patch as a line on the analytic surface, from the parameter
+/// `first` on; null if it is none. `length`: of its parameter.
+Handle(Geom2d_Line) ShapeMaker::StraightPcurve(
+  const EdgeUse& use, double first, double& length) const
+{
+  const CurveView<2>& trim = this->Whole.Data.TrimCurves[use.Curve].Geometry;
+  const std::optional<AnalyticSurface>& surface = this->Forms[use.Face];
+  if (!surface || surface->IsPlane())
+  {
+    return nullptr;
+  }
+  const SurfaceView& patch = this->Whole.Data.Faces[use.Face].Geometry;
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    bool constant = true;
+    for (int i = 1; i < trim.Count; ++i)
+    {
+      constant = constant &&
+        std::abs(trim.Point(i)[dir] - trim.Point(0)[dir]) <=
+          SameLength * patch.Domain(dir).Length();
+    }
+    if (constant)
+    {
+      const Interval domain = trim.Domain();
+      const Vec2 a = surface->Parameters(Evaluate(trim, domain.Min));
+      const Vec2 b = surface->Parameters(Evaluate(trim, domain.Max));
+      const int along = std::abs(b[0] - a[0]) > std::abs(b[1] - a[1]) ? 0 : 1;
+      const double step = b[along] > a[along] ? 1.0 : -1.0;
+      length = std::abs(b[along] - a[along]);
+      return new Geom2d_Line(gp_Pnt2d(a[0] - (along == 0 ? step * first : 0.0),
+                               a[1] - (along == 1 ? step * first : 0.0)),
+        gp_Dir2d(along == 0 ? step : 0.0, along == 1 ? step : 0.0));
+    }
+  }
+  return nullptr;
+}
+
+/// The trim curve in the parameters of the surface that is written, in that of the edge.
+Handle(Geom2d_Curve) ShapeMaker::PcurveOf(const EdgeUse& use, std::int64_t edge)
+{
+  const CurveView<2>& trim = this->Whole.Data.TrimCurves[use.Curve].Geometry;
+  const std::optional<AnalyticSurface>& surface = this->Forms[use.Face];
+  const Interval range = this->Ranges[edge];
+  if (!surface)
+  {
+    return ExportCurve(trim, range);
+  }
+  if (surface->IsPlane())
+  {
+    return nullptr;
+  }
+  double length = 0.0;
+  const Handle(Geom2d_Line) line = this->StraightPcurve(use, range.Min, length);
+  if (!line.IsNull() && (this->Curves[edge] || this->Edges.Edges[edge].Pole))
+  {
+    return Handle(Geom2d_Curve)(line);
+  }
+  const Interval domain = trim.Domain();
+  double error = 0.0;
+  const Curve<2> fitted =
+    FitCurve<2>([&](double t) { return surface->Parameters(Evaluate(trim, domain.Clamp(t))); },
+      LiftBreaks(this->Whole.Data.Faces[use.Face].Geometry, trim), surface->UnitLengths(),
+      FitShare * this->Options.CurveTolerance * this->Size * this->Options.Scale, error);
+  this->Edges.Edges[edge].Tolerance += FitSlack * error / this->Options.Scale;
+  return ExportCurve(fitted.View(), range);
+}
+
 void ShapeMaker::MakeVertices()
 {
   BRep_Builder builder;
@@ -171,16 +341,22 @@ TopoDS_Edge& ShapeMaker::EdgeShape(std::int64_t index)
   }
   else
   {
-    builder.MakeEdge(
-      shape, ExportCurve(edge.Geometry.View(), this->Options.Scale), this->Length(edge.Tolerance));
+    const std::optional<AnalyticCurve>& form = this->Curves[index];
+    const Handle(Geom_Curve) curve = form
+      ? form->Geometry
+      : Handle(Geom_Curve)(ExportCurve(edge.Geometry.View(), this->Options.Scale));
+    builder.MakeEdge(shape, curve, this->Length(edge.Tolerance));
   }
   builder.Add(shape, this->Vertices[edge.Vertex[0]].Oriented(TopAbs_FORWARD));
   builder.Add(shape, this->Vertices[edge.Vertex[1]].Oriented(TopAbs_REVERSED));
   return shape;
 }
 
-std::vector<ShapeMaker::Wire> ShapeMaker::ExportWires(const std::vector<std::int64_t>& loops) const
+/// On a surface whose normals are opposite to the patch's everything runs the other way.
+std::vector<ShapeMaker::Wire> ShapeMaker::ExportWires(
+  std::int64_t face, const std::vector<std::int64_t>& loops)
 {
+  const bool mirrored = this->Forms[face] && this->Forms[face]->IsMirrored();
   std::vector<Wire> wires;
   for (const std::int64_t l : loops)
   {
@@ -190,8 +366,11 @@ std::vector<ShapeMaker::Wire> ShapeMaker::ExportWires(const std::vector<std::int
     {
       const std::int64_t edge = this->Edges.EdgeOf[c];
       const TrimCurve& trim = this->Whole.Data.TrimCurves[c];
-      wire.push_back(
-        { edge, trim.Reversed, ExportCurve(trim.Geometry, this->Edges.Edges[edge].Range) });
+      wire.push_back({ edge, trim.Reversed != mirrored, this->PcurveOf({ face, c }, edge) });
+    }
+    if (mirrored)
+    {
+      std::reverse(wire.begin(), wire.end());
     }
     if (!wire.empty())
     {
@@ -223,7 +402,11 @@ void ShapeMaker::AttachPcurves(const std::vector<Wire>& wires, const Handle(Geom
     TopoDS_Edge& shape = this->EdgeShape(index);
     const ExportEdge& edge = this->Edges.Edges[index];
     const double tolerance = this->Length(edge.Tolerance);
-    if (i + 1 < all.size() && all[i + 1]->Edge == index)
+    if (all[i]->Curve.IsNull())
+    {
+      builder.UpdateEdge(shape, tolerance);
+    }
+    else if (i + 1 < all.size() && all[i + 1]->Edge == index)
     {
       builder.UpdateEdge(shape, all[i]->Curve, all[i + 1]->Curve, surface, here, tolerance);
       ++i;
@@ -232,7 +415,11 @@ void ShapeMaker::AttachPcurves(const std::vector<Wire>& wires, const Handle(Geom
     {
       builder.UpdateEdge(shape, all[i]->Curve, surface, here, tolerance);
     }
-    builder.Range(shape, edge.Range.Min, edge.Range.Max);
+    builder.Range(shape, this->Ranges[index].Min, this->Ranges[index].Max);
+    for (const std::int64_t vertex : edge.Vertex)
+    {
+      builder.UpdateVertex(this->Vertices[vertex], tolerance);
+    }
   }
 }
 
@@ -264,6 +451,7 @@ void ShapeMaker::TryFace(std::size_t f)
     return;
   }
   const Face& face = this->Whole.Data.Faces[f];
+  const bool mirrored = this->Forms[f] && this->Forms[f]->IsMirrored();
   try
   {
     const std::vector<std::vector<std::int64_t>> groups = GroupLoops(this->Whole.Data, face);
@@ -271,7 +459,7 @@ void ShapeMaker::TryFace(std::size_t f)
     std::vector<Wire> all;
     for (const std::vector<std::int64_t>& loops : groups)
     {
-      pieces.push_back(this->ExportWires(loops));
+      pieces.push_back(this->ExportWires(static_cast<std::int64_t>(f), loops));
       all.insert(all.end(), pieces.back().begin(), pieces.back().end());
     }
     this->AttachPcurves(all, this->Surfaces[f]);
@@ -282,7 +470,8 @@ void ShapeMaker::TryFace(std::size_t f)
         this->FaceOfLoop[l] = static_cast<std::int64_t>(this->Result.Faces.size());
       }
       this->Result.Faces.push_back(this->MakeFace(pieces[k], this->Surfaces[f]));
-      this->Result.Faces.back().Orientation(face.Reversed ? TopAbs_REVERSED : TopAbs_FORWARD);
+      this->Result.Faces.back().Orientation(
+        face.Reversed != mirrored ? TopAbs_REVERSED : TopAbs_FORWARD);
       this->Result.FaceOf.push_back(static_cast<std::int64_t>(f));
     }
     this->Result.SplitFaces += pieces.size() > 1;

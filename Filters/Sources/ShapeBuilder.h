@@ -2,7 +2,7 @@
 /// @file ShapeBuilder.h
 /// @brief A trimmed model as a shape of OpenCASCADE: faces sewn to shells and solids.
 ///
-/// Every face keeps its surface (SplineExport), its loops as wires of trim curves, and its
+/// Every face keeps its surface (AnalyticForm, SplineExport), its loops as wires of trim curves, and its
 /// orientation; one of several pieces becomes several faces on one surface. Faces that share an edge
 /// of the model share a TopoDS_Edge (EdgeExport tells what its curve and tolerance are). Faces that
 /// hang together so become a shell; a closed shell whose outside is outside becomes a solid, with the
@@ -24,6 +24,7 @@ struct ShapeOptions
 {
   double Scale = 1.0;           ///< OpenCASCADE's unit, millimetres, a unit of the model.
   double CurveTolerance = 1e-7; ///< What computed edge curves may deviate, of the model's diagonal.
+  bool Analytic = true;         ///< Planes, cylinders, lines ... are told as such: AnalyticForm.h.
   double Gap = 1e-4;            ///< How far apart faces may be that share an edge, of the diagonal.
 };
 
@@ -34,7 +35,9 @@ struct BuiltShape
   std::vector<TopoDS_Face> Faces;      ///< Those that could be built, by face of the model.
   std::vector<std::int64_t> FaceOf;    ///< The face of the model that each of Faces is, or is of.
   std::vector<std::string> FaceErrors; ///< One a face of the model: why it can't be built, or "".
-  std::int64_t SplitFaces = 0;         ///< Faces of the model that are several of Faces.
+  std::int64_t AnalyticFaces =
+    0; ///< Faces of the model on planes, cylinders, cones, spheres and tori.
+  std::int64_t SplitFaces = 0; ///< Faces of the model that are several of Faces.
   std::int64_t Solids = 0;
   std::int64_t Shells = 0;        ///< That are no part of a solid.
   std::int64_t Edges = 0;         ///< Poles left out.

@@ -2,6 +2,7 @@
 #include "SplineExport.h"
 
 #include "CADSession.h"
+#include "CurveCopy.h"
 
 #include <Standard_Failure.hxx>
 #include <TColStd_Array1OfInteger.hxx>
@@ -88,15 +89,7 @@ Curve<D> Clamped(const CurveView<D>& view)
   {
     return Restrict(view, domain.Min, domain.Max);
   }
-  Curve<D> curve;
-  curve.Degree = view.Degree;
-  curve.Knots.assign(view.Knots.begin(), view.Knots.end());
-  for (int i = 0; i < view.Count; ++i)
-  {
-    curve.Points.push_back(view.Point(i));
-    curve.Weights.push_back(view.Weight(i));
-  }
-  return curve;
+  return Copy(view);
 }
 
 template <int D>

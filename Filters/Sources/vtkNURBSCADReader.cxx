@@ -10,12 +10,12 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSParallel.h"
 #include "vtkNURBSPieces.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkSMPTools.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <chrono>
@@ -31,12 +31,6 @@ double Now()
 {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-void SMPFor(std::int64_t first, std::int64_t last,
-  const std::function<void(std::int64_t, std::int64_t)>& body)
-{
-  vtkSMPTools::For(first, last, 1, [&](vtkIdType begin, vtkIdType end) { body(begin, end); });
 }
 
 /// One model of the output while it is made.
@@ -260,7 +254,7 @@ int vtkNURBSCADReader::RequestData(
   std::atomic<bool> abort{ false };
   for (const TopoDS_Shape& shape : document.Parts)
   {
-    parts.push_back(nurbs::ConvertPart(shape, SMPFor, abort));
+    parts.push_back(nurbs::ConvertPart(shape, vtkNURBSParallelFor, abort));
     this->UpdateProgress(
       ParsePart + (1.0 - ParsePart) * double(parts.size()) / double(document.Parts.size()));
     if (this->GetAbortExecute())

@@ -118,7 +118,7 @@ private:
   std::int64_t AddNode(
     std::int64_t parent, const std::string& name, const std::string& instance, std::int64_t part)
   {
-    this->Content.Nodes.push_back({ parent, name, instance, part });
+    this->Content.Nodes.push_back({ parent, name, instance, part, TopLoc_Location() });
     if (part >= 0)
     {
       this->Content.Parts[part].Name = name;

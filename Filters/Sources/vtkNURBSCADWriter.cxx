@@ -2,6 +2,7 @@
 #include "vtkNURBSCADWriter.h"
 
 #include "CADExport.h"
+#include "SamePart.h"
 #include "ShapeBuilder.h"
 #include "vtkNURBSCADTree.h"
 #include "vtkNURBSModel.h"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 vtkStandardNewMacro(vtkNURBSCADWriter);
@@ -76,9 +78,101 @@ struct vtkNURBSCADWriter::Work
   vtkDataObject* Input = nullptr;
   std::vector<vtkNURBSCADTree::Block> Blocks;
   std::vector<double> Scales; // Millimetres a unit of each block.
+  std::vector<std::shared_ptr<const vtkNURBSModelView>> Views;
+  std::vector<nurbs::CADPart> Parts; // What is told of the faces of each block, by cell.
+  struct Copy
+  {
+    std::size_t Of; // The first block that is the same part: itself, for most.
+    nurbs::Placement Motion;
+  };
+  std::vector<Copy> Copies;
   std::vector<nurbs::BuiltShape> Shapes;
   nurbs::CADContent Content;
+  vtkIdType Instances = 0;
+
+  bool IsCopy(std::size_t block) const { return this->Copies[block].Of != block; }
+  void FindCopies();
+  void PlaceCopies(const std::vector<std::int64_t>& parts);
 };
+
+// Blocks that are one part, moved: equal in all that is told of them.
+void vtkNURBSCADWriter::Work::FindCopies()
+{
+  std::multimap<std::pair<vtkIdType, vtkIdType>, std::size_t> known;
+  for (std::size_t i = 0; i < this->Blocks.size(); ++i)
+  {
+    vtkUnstructuredGrid* grid = this->Blocks[i].Grid;
+    this->Views.push_back(vtkNURBSModel::View(grid));
+    this->Copies.push_back({ i, nurbs::Placement() });
+    std::vector<std::int64_t> cells;
+    bool whole = true;
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      cells.push_back(cell);
+      whole = whole && this->Views[i]->GetFaceError(cell).empty();
+    }
+    this->Parts.emplace_back();
+    vtkNURBSCADTree::DescribeFaces(grid, cells, this->Parts[i]);
+    if (!whole)
+    {
+      continue; // What is wrong with it is told of each.
+    }
+    const auto key = std::make_pair(grid->GetNumberOfCells(), grid->GetNumberOfPoints());
+    const auto [first, last] = known.equal_range(key);
+    for (auto it = first; it != last && !this->IsCopy(i); ++it)
+    {
+      const std::size_t k = it->second;
+      const auto motion = this->Scales[k] == this->Scales[i] &&
+          this->Blocks[k].Name == this->Blocks[i].Name &&
+          this->Parts[k].FaceNames == this->Parts[i].FaceNames &&
+          this->Parts[k].Colors == this->Parts[i].Colors
+        ? nurbs::MotionBetween(this->Views[k]->GetModel(), this->Views[i]->GetModel())
+        : std::nullopt;
+      if (motion)
+      {
+        this->Copies[i] = { k, *motion };
+      }
+    }
+    if (!this->IsCopy(i))
+    {
+      known.emplace(key, i);
+    }
+  }
+}
+
+// Copies become instances of one part in the assembly, if it has one name; else parts of their own.
+void vtkNURBSCADWriter::Work::PlaceCopies(const std::vector<std::int64_t>& parts)
+{
+  std::vector<nurbs::CADNode*> nodes(this->Content.Parts.size(), nullptr);
+  for (nurbs::CADNode& node : this->Content.Nodes)
+  {
+    if (node.Part >= 0)
+    {
+      nodes[node.Part] = &node;
+    }
+  }
+  for (std::size_t i = 0; i < this->Blocks.size(); ++i)
+  {
+    if (!this->IsCopy(i) || parts[i] < 0)
+    {
+      continue;
+    }
+    nurbs::Placement motion = this->Copies[i].Motion;
+    motion.Shift *= this->Scales[i];
+    nurbs::CADNode& node = *nodes[parts[i]];
+    const nurbs::CADNode& first = *nodes[parts[this->Copies[i].Of]];
+    if (node.Parent >= 0 && first.Parent >= 0 && node.Name == first.Name)
+    {
+      node.Part = first.Part;
+      node.Place = nurbs::ToLocation(motion);
+      ++this->Instances;
+    }
+    else
+    {
+      nurbs::MovePart(motion, this->Content.Parts[parts[i]]);
+    }
+  }
+}
 
 vtkNURBSCADWriter::vtkNURBSCADWriter() = default;
 
@@ -112,7 +206,7 @@ bool vtkNURBSCADWriter::Aborted()
 void vtkNURBSCADWriter::ClearFigures()
 {
   this->NumberOfFaces = this->NumberOfFailedFaces = this->NumberOfInvalidFaces = 0;
-  this->NumberOfSplitFaces = 0;
+  this->NumberOfSplitFaces = this->NumberOfAnalyticFaces = this->NumberOfInstances = 0;
   this->NumberOfSolids = this->NumberOfShells = 0;
   this->NumberOfEdges = this->NumberOfSharedEdges = 0;
   this->NumberOfComputedEdges = this->NumberOfTornEdges = 0;
@@ -201,13 +295,20 @@ bool vtkNURBSCADWriter::Build(Work& work)
   nurbs::ShapeOptions options;
   options.CurveTolerance = this->CurveTolerance;
   options.Gap = this->Gap;
+  options.Analytic = this->AnalyticSurfaces;
+  work.FindCopies();
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < work.Blocks.size() && !abort; ++i)
   {
     const vtkNURBSCADTree::Block& block = work.Blocks[i];
+    if (work.IsCopy(i))
+    {
+      work.Shapes.push_back(work.Shapes[work.Copies[i].Of]);
+      continue;
+    }
     end = BuildPart * double(i + 1) / double(work.Blocks.size());
     options.Scale = work.Scales[i];
-    const auto view = vtkNURBSModel::View(block.Grid);
+    const auto& view = work.Views[i];
     std::vector<std::string> errors;
     for (vtkIdType cell = 0; cell < block.Grid->GetNumberOfCells(); ++cell)
     {
@@ -254,6 +355,7 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
     const nurbs::BuiltShape& shape = work.Shapes[i];
     this->NumberOfFaces += static_cast<vtkIdType>(shape.Faces.size());
     this->NumberOfSplitFaces += shape.SplitFaces;
+    this->NumberOfAnalyticFaces += shape.AnalyticFaces;
     this->NumberOfSolids += shape.Solids;
     this->NumberOfShells += shape.Shells;
     this->NumberOfEdges += shape.Edges;
@@ -262,7 +364,7 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
     this->EdgeTolerance = std::max(this->EdgeTolerance, shape.EdgeTolerance / work.Scales[i]);
     torn += shape.TornEdges;
     for (const nurbs::ShapeFault& fault :
-      this->Check ? nurbs::CheckShape(shape) : std::vector<nurbs::ShapeFault>())
+      this->Check && !work.IsCopy(i) ? nurbs::CheckShape(shape) : std::vector<nurbs::ShapeFault>())
     {
       this->NumberOfInvalidFaces += fault.Face >= 0 ? 1 : 0;
       faults.push_back(fault.Face >= 0
@@ -300,6 +402,8 @@ bool vtkNURBSCADWriter::Save(Work& work)
     }
   }
   vtkNURBSCADTree::MakeNodes(work.Input, work.Blocks, parts, stem, work.Content);
+  work.PlaceCopies(parts);
+  this->NumberOfInstances = work.Instances;
   try
   {
     nurbs::SaveCADFile(work.Content, work.Format, this->FileName, [this](double done) {
@@ -368,10 +472,13 @@ void vtkNURBSCADWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "CurveTolerance: " << this->CurveTolerance << "\n";
   os << indent << "Gap: " << this->Gap << "\n";
+  os << indent << "AnalyticSurfaces: " << (this->AnalyticSurfaces ? "on" : "off") << "\n";
   os << indent << "Check: " << (this->Check ? "on" : "off") << "\n";
   os << indent << "NumberOfFaces: " << this->NumberOfFaces << "\n";
   os << indent << "NumberOfSplitFaces: " << this->NumberOfSplitFaces << "\n";
+  os << indent << "NumberOfAnalyticFaces: " << this->NumberOfAnalyticFaces << "\n";
   os << indent << "NumberOfFailedFaces: " << this->NumberOfFailedFaces << "\n";
+  os << indent << "NumberOfInstances: " << this->NumberOfInstances << "\n";
   os << indent << "NumberOfSolids: " << this->NumberOfSolids << "\n";
   os << indent << "NumberOfShells: " << this->NumberOfShells << "\n";
   os << indent << "NumberOfEdges: " << this->NumberOfEdges << "\n";

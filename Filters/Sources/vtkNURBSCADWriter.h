@@ -5,7 +5,8 @@
  *
  * The input is a surface model (vtkNURBSModel) or a composite data set of such: what the reader and
  * the sources give, visible regions, deformed and edited models. Every face is written as the
- * rational B-spline surface that it is, with its trimming loops. Faces that share edges in the model
+ * rational B-spline surface that it is, or, with AnalyticSurfaces, as the plane, cylinder, cone, sphere
+ * or torus that this is, with its trimming loops. Faces that share edges in the model
  * share them in the file and become shells, and closed shells become solids, with cavities where
  * they have some (a closed shell that is turned inwards and lies in no solid stays a shell). Faces
  * without loops are written with their natural boundary, and share the sides that coincide.
@@ -25,8 +26,10 @@
  * | tree: vtkDataAssembly with "label" and "instance" as in vtkNURBSCADReader | yes | no | no |
  * | trim curves in (u, v) | yes | no | yes |
  *
- * Not written: other arrays of faces, FaceId (it counts faces in the order of the file again), and that
- * several blocks are instances of one part.
+ * Blocks of one name that are the same part, moved (equal but for round-off, names and colours of faces
+ * as well), become instances of one part in STEP and BREP.
+ *
+ * Not written: other arrays of faces, and FaceId (it counts faces in the order of the file again).
  *
  * A face that can't be written is named in a warning and left out. With Check, OpenCASCADE's
  * BRepCheck_Analyzer looks at each shape, and what it finds is told in a warning; the file is written
@@ -103,6 +106,17 @@ public:
 
   ///@{
   /**
+   * Whether surfaces that are planes, cylinders, cones, spheres or tori, and edges that are lines or
+   * circles, but for round-off (1e-12 of the largest coordinate), are written as such. Their (u, v) are
+   * others then. Off: all are B-splines. Default: on.
+   */
+  vtkSetMacro(AnalyticSurfaces, bool);
+  vtkGetMacro(AnalyticSurfaces, bool);
+  vtkBooleanMacro(AnalyticSurfaces, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether OpenCASCADE checks the shapes. Default: on.
    */
   vtkSetMacro(Check, bool);
@@ -112,14 +126,18 @@ public:
 
   ///@{
   /**
-   * Of the last file: faces written; cells that were split into several, and left out; solids,
+   * Of the last file: faces written; cells that were split into several, that were written as analytic
+   * surfaces, and that were left out; blocks that are
+   * instances of the part of another one; solids,
    * shells that are no part of one, edges (without poles), of them those that faces share, those whose curve was computed, and edges of
    * the model that were torn; faces that BRepCheck_Analyzer found fault with; the largest tolerance
    * of an edge, in the model's unit. 0 before the first one and after an error.
    */
   vtkGetMacro(NumberOfFaces, vtkIdType);
   vtkGetMacro(NumberOfSplitFaces, vtkIdType);
+  vtkGetMacro(NumberOfAnalyticFaces, vtkIdType);
   vtkGetMacro(NumberOfFailedFaces, vtkIdType);
+  vtkGetMacro(NumberOfInstances, vtkIdType);
   vtkGetMacro(NumberOfSolids, vtkIdType);
   vtkGetMacro(NumberOfShells, vtkIdType);
   vtkGetMacro(NumberOfEdges, vtkIdType);
@@ -155,11 +173,14 @@ private:
   int Format = BY_ENDING;
   double CurveTolerance = 1e-7;
   double Gap = 1e-4;
+  bool AnalyticSurfaces = true;
   bool Check = true;
 
   vtkIdType NumberOfFaces = 0;
   vtkIdType NumberOfSplitFaces = 0;
+  vtkIdType NumberOfAnalyticFaces = 0;
   vtkIdType NumberOfFailedFaces = 0;
+  vtkIdType NumberOfInstances = 0;
   vtkIdType NumberOfSolids = 0;
   vtkIdType NumberOfShells = 0;
   vtkIdType NumberOfEdges = 0;

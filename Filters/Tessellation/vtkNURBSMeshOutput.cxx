@@ -8,6 +8,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSNewArray.h"
 #include "vtkNURBSParallel.h"
 #include "vtkNURBSPieces.h"
 #include "vtkNew.h"
@@ -33,16 +34,6 @@ using vtkNURBSMeshOutput::Range;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "points are copied in one go");
 static_assert(sizeof(nurbs::Vec2) == 2 * sizeof(double), "parameters are copied in one go");
-
-template <typename ArrayT>
-vtkSmartPointer<ArrayT> NewArray(const char* name, int components, vtkIdType tuples)
-{
-  auto array = vtkSmartPointer<ArrayT>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
 
 // Where the points and triangles of each mesh start in the output.
 struct Offsets
@@ -245,14 +236,6 @@ vtkSmartPointer<vtkCellArray> MergeCoincidentPoints(
   return merged;
 }
 
-template <typename ArrayT, typename T>
-void AddValue(vtkFieldData* field, const char* name, T value)
-{
-  auto array = NewArray<ArrayT>(name, 1, 1);
-  array->SetValue(0, value);
-  field->AddArray(array);
-}
-
 void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh)
 {
   vtkFieldData* field = mesh->GetFieldData();
@@ -265,11 +248,11 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
     }
   }
   const auto faces = vtkIdType(told.size());
-  auto ids = NewArray<vtkIdTypeArray>("FaceIds", 1, faces);
-  auto errors = NewArray<vtkDoubleArray>("FaceCertifiedError", 1, faces);
-  auto status = NewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
-  auto messages = NewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
-  auto tolerances = NewArray<vtkDoubleArray>("FaceTolerance", 1, faces);
+  auto ids = vtkNURBSNewArray<vtkIdTypeArray>("FaceIds", 1, faces);
+  auto errors = vtkNURBSNewArray<vtkDoubleArray>("FaceCertifiedError", 1, faces);
+  auto status = vtkNURBSNewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
+  auto messages = vtkNURBSNewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
+  auto tolerances = vtkNURBSNewArray<vtkDoubleArray>("FaceTolerance", 1, faces);
   double largest = 0.0;
   for (vtkIdType k = 0; k < faces; ++k)
   {
@@ -290,9 +273,9 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
   {
     field->AddArray(tolerances);
   }
-  AddValue<vtkDoubleArray>(field, "Tolerance", range.Tolerance);
-  AddValue<vtkDoubleArray>(field, "CertifiedError", largest);
-  AddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
+  vtkNURBSAddValue<vtkDoubleArray>(field, "Tolerance", range.Tolerance);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "CertifiedError", largest);
+  vtkNURBSAddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
 }
 
 } // namespace
@@ -302,10 +285,10 @@ void vtkNURBSMeshOutput::FillMesh(const Range& range, vtkUnstructuredGrid* grid,
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), mesh->GetFieldData());
   const Offsets offsets(range);
   const vtkIdType points = offsets.Points.back();
-  auto xyz = NewArray<vtkDoubleArray>("Points", 3, points);
-  auto normals = NewArray<vtkFloatArray>("Normals", 3, points);
-  auto uv = NewArray<vtkDoubleArray>("UV", 2, points);
-  auto faces = NewArray<vtkIdTypeArray>("Faces", 1, offsets.Triangles.back());
+  auto xyz = vtkNURBSNewArray<vtkDoubleArray>("Points", 3, points);
+  auto normals = vtkNURBSNewArray<vtkFloatArray>("Normals", 3, points);
+  auto uv = vtkNURBSNewArray<vtkDoubleArray>("UV", 2, points);
+  auto faces = vtkNURBSNewArray<vtkIdTypeArray>("Faces", 1, offsets.Triangles.back());
   const MeshArrays arrays{ xyz->GetPointer(0), normals->GetPointer(0), uv->GetPointer(0),
     faces->GetPointer(0) };
   const vtkIdType limit = std::numeric_limits<vtkTypeInt32>::max();
@@ -334,9 +317,9 @@ void vtkNURBSMeshOutput::FillLines(
 {
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), lines->GetFieldData());
   const vtkIdType count = vtkIdType(range.LastLine - range.FirstLine);
-  auto edges = NewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);
-  auto faces = NewArray<vtkTypeInt64Array>(vtkNURBSModel::FaceIdName(), 1, count);
-  auto owners = NewArray<vtkIdTypeArray>("Owners", 1, count);
+  auto edges = vtkNURBSNewArray<vtkTypeInt64Array>(vtkNURBSModel::EdgeIdName(), 1, count);
+  auto faces = vtkNURBSNewArray<vtkTypeInt64Array>(vtkNURBSModel::FaceIdName(), 1, count);
+  auto owners = vtkNURBSNewArray<vtkIdTypeArray>("Owners", 1, count);
   vtkNew<vtkIdTypeArray> starts;
   starts->SetNumberOfValues(count + 1);
   vtkIdType total = 0;
@@ -350,7 +333,7 @@ void vtkNURBSMeshOutput::FillLines(
     faces->SetValue(i, vtkNURBSModel::GetFaceId(grid, owners->GetValue(i)));
   }
   starts->SetValue(count, total);
-  auto xyz = NewArray<vtkDoubleArray>("Points", 3, total);
+  auto xyz = vtkNURBSNewArray<vtkDoubleArray>("Points", 3, total);
   vtkNew<vtkIdTypeArray> connectivity;
   connectivity->SetNumberOfValues(total);
   for (vtkIdType i = 0; i < total; ++i)
@@ -384,6 +367,6 @@ double vtkNURBSMeshOutput::GetCertifiedError(vtkPolyData* mesh)
 
 void vtkNURBSMeshOutput::SetFigures(vtkPolyData* mesh, double certifiedError, vtkIdType triangles)
 {
-  AddValue<vtkDoubleArray>(mesh->GetFieldData(), "CertifiedError", certifiedError);
-  AddValue<vtkIdTypeArray>(mesh->GetFieldData(), "NumberOfTriangles", triangles);
+  vtkNURBSAddValue<vtkDoubleArray>(mesh->GetFieldData(), "CertifiedError", certifiedError);
+  vtkNURBSAddValue<vtkIdTypeArray>(mesh->GetFieldData(), "NumberOfTriangles", triangles);
 }

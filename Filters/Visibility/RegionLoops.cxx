@@ -2,10 +2,10 @@
 #include "RegionLoops.h"
 
 #include "HalfEdges.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace nurbs
 {
@@ -109,31 +109,24 @@ bool BorderTracer::IsBorder(HalfEdge half) const
 // Cells in regions that consist of slivers only.
 std::vector<char> BorderTracer::FindSpecks() const
 {
-  std::vector<std::int32_t> parent(this->Map.Cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](std::int32_t c) {
-    while (parent[c] != c)
-    {
-      c = parent[c] = parent[parent[c]];
-    }
-    return c;
-  };
+  UnionFind joined(this->Map.Cells.size());
   for (HalfEdge h = 0; h < HalfEdge(this->Border.size()); h += 2)
   {
     if (!this->Border[h] && !this->Border[h + 1] && this->Face(h) == this->Face(h + 1))
     {
-      parent[find(this->Map.Cell(h / 2, 0))] = find(this->Map.Cell(h / 2, 1));
+      joined.Join(this->Map.Cell(h / 2, 0), this->Map.Cell(h / 2, 1));
     }
   }
-  std::vector<char> isWide(parent.size(), 0);
-  for (std::size_t c = 0; c < parent.size(); ++c)
+  const std::vector<std::int64_t> region = joined.Sets();
+  std::vector<char> isWide(region.size(), 0);
+  for (std::size_t c = 0; c < region.size(); ++c)
   {
-    isWide[find(std::int32_t(c))] |= !this->Map.IsSliver(std::int32_t(c));
+    isWide[region[c]] |= !this->Map.IsSliver(std::int32_t(c));
   }
-  std::vector<char> out(parent.size());
-  for (std::size_t c = 0; c < parent.size(); ++c)
+  std::vector<char> out(region.size());
+  for (std::size_t c = 0; c < region.size(); ++c)
   {
-    out[c] = !isWide[find(std::int32_t(c))];
+    out[c] = !isWide[region[c]];
   }
   return out;
 }

@@ -3,10 +3,10 @@
 
 #include "EdgeContour.h"
 #include "ModelExtent.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace nurbs
 {
@@ -19,39 +19,12 @@ constexpr double SilhouettesDone = 0.7;
 // As MakeSilhouettes completes models.
 constexpr double JoinShare = 1e-7;
 
-// Puts the lowest face of its set in place of each.
-void Flatten(std::vector<std::int64_t>& parent)
-{
-  for (std::int64_t& face : parent)
-  {
-    face = parent[face]; // Which is not above it, so done before.
-  }
-}
-
-// The lowest face of the set; parents are lower.
-std::int64_t Root(std::vector<std::int64_t>& parent, std::int64_t face)
-{
-  while (parent[face] != face)
-  {
-    face = parent[face] = parent[parent[face]];
-  }
-  return face;
-}
-
-void Unite(std::vector<std::int64_t>& parent, std::int64_t a, std::int64_t b)
-{
-  a = Root(parent, a);
-  b = Root(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
 // Faces by connected shell; a shell is closed if each edge has two uses that run opposite ways seen
 // from the outside.
 std::vector<char> FindShells(const ViewLines& lines)
 {
   const Model& model = lines.Whole.Data;
-  std::vector<std::int64_t> parent(model.Faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  UnionFind shells(model.Faces.size());
   std::vector<char> open(model.Faces.size(), 0);
   for (std::size_t e = 0; e < lines.Uses.size(); ++e)
   {
@@ -62,7 +35,7 @@ std::vector<char> FindShells(const ViewLines& lines)
     }
     for (const EdgeUse& use : uses)
     {
-      Unite(parent, use.Face, uses.front().Face);
+      shells.Join(use.Face, uses.front().Face);
     }
     const auto isForward = [&](const EdgeUse& use) {
       return model.TrimCurves[use.Curve].Reversed == model.Faces[use.Face].Reversed;
@@ -75,12 +48,12 @@ std::vector<char> FindShells(const ViewLines& lines)
   std::vector<char> openShell(model.Faces.size(), 0);
   for (std::size_t f = 0; f < open.size(); ++f)
   {
-    openShell[Root(parent, std::int64_t(f))] |= open[f] || model.Faces[f].LoopCount == 0;
+    openShell[shells.Find(std::int64_t(f))] |= open[f] || model.Faces[f].LoopCount == 0;
   }
   std::vector<char> out(open.size());
   for (std::size_t f = 0; f < open.size(); ++f)
   {
-    out[f] = !openShell[Root(parent, std::int64_t(f))];
+    out[f] = !openShell[shells.Find(std::int64_t(f))];
   }
   return out;
 }
@@ -348,7 +321,7 @@ void AddIntersections(
 
 ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
-  const ImagePlane& image, bool allSmooth)
+  const ImagePlane& image, bool allSmooth, std::shared_ptr<const FaceIntersections> known)
 {
   ViewLines out;
   SilhouetteOptions contours = options;
@@ -374,8 +347,10 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   piercing.Progress = [&](double done) {
     return report(SilhouettesDone + (1.0 - SilhouettesDone) * done);
   };
-  const FaceIntersections intersections =
-    FindIntersections(out.Whole.Data, trims, faceErrors, piercing);
+  out.Intersections = known ? std::move(known)
+                            : std::make_shared<const FaceIntersections>(
+                                FindIntersections(out.Whole.Data, trims, faceErrors, piercing));
+  const FaceIntersections& intersections = *out.Intersections;
   out.Aborted = intersections.Aborted;
   if (out.Aborted)
   {
@@ -438,16 +413,15 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   out.Lines.erase(std::remove_if(out.Lines.begin() + first, out.Lines.end(),
                     [](const ViewLine& line) { return line.Points.size() < 2; }),
     out.Lines.end());
-  out.Cluster.resize(out.Whole.Data.Faces.size());
-  std::iota(out.Cluster.begin(), out.Cluster.end(), std::int64_t(0));
+  UnionFind clusters(out.Whole.Data.Faces.size());
   for (std::int64_t e = 0; e < edges; ++e)
   {
     if (isInner[e])
     {
-      Unite(out.Cluster, out.Uses[e][0].Face, out.Uses[e][1].Face);
+      clusters.Join(out.Uses[e][0].Face, out.Uses[e][1].Face);
     }
   }
-  Flatten(out.Cluster);
+  out.Cluster = clusters.Sets();
   ProjectLines(silhouettes, intersections, image, out);
   return out;
 }

@@ -3,11 +3,11 @@
 
 #include "BoxTree.h"
 #include "EdgeContour.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 namespace nurbs
 {
@@ -235,15 +235,7 @@ FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer)
 {
   FaceClusters out;
   out.IsInner.assign(lines.Lines.size(), 0);
-  out.Cluster.resize(lines.Whole.Data.Faces.size());
-  std::iota(out.Cluster.begin(), out.Cluster.end(), 0);
-  const auto find = [&](std::int64_t f) {
-    while (out.Cluster[f] != f)
-    {
-      f = out.Cluster[f] = out.Cluster[out.Cluster[f]];
-    }
-    return f;
-  };
+  UnionFind clusters(lines.Whole.Data.Faces.size());
   for (std::size_t l = 0; l < lines.Lines.size(); ++l)
   {
     const ViewLine& line = lines.Lines[l];
@@ -251,15 +243,10 @@ FaceClusters FindClusters(const ViewLines& lines, const Viewer& viewer)
       FaceTheSameWay(lines.Whole.Data, line.Edge, lines.Uses[line.Edge], viewer);
     if (out.IsInner[l])
     {
-      const std::int64_t a = find(lines.Uses[line.Edge][0].Face);
-      const std::int64_t b = find(lines.Uses[line.Edge][1].Face);
-      out.Cluster[std::max(a, b)] = std::min(a, b);
+      clusters.Join(lines.Uses[line.Edge][0].Face, lines.Uses[line.Edge][1].Face);
     }
   }
-  for (std::size_t f = 0; f < out.Cluster.size(); ++f)
-  {
-    out.Cluster[f] = find(std::int64_t(f));
-  }
+  out.Cluster = clusters.Sets();
   return out;
 }
 

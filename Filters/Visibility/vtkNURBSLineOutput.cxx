@@ -7,6 +7,7 @@
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSNewArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -20,16 +21,6 @@ namespace
 
 using nurbs::SilhouetteLine;
 using vtkNURBSLineOutput::Range;
-
-template <typename ArrayT>
-vtkSmartPointer<ArrayT> NewArray(const char* name, int components, vtkIdType tuples = 0)
-{
-  auto array = vtkSmartPointer<ArrayT>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
 
 // Numbers the points of lines: an end that another line goes on from has one number.
 class PointNumbers
@@ -61,10 +52,11 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* o
 {
   vtkFieldData* field = output->GetFieldData();
   const auto faces = vtkIdType(range.Last - range.First);
-  auto ids = NewArray<vtkIdTypeArray>("FaceIds", 1, faces);
-  auto patches = NewArray<vtkIdTypeArray>("FacePatches", nurbs::PatchVisibilityCount, faces);
-  auto status = NewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
-  auto messages = NewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
+  auto ids = vtkNURBSNewArray<vtkIdTypeArray>("FaceIds", 1, faces);
+  auto patches =
+    vtkNURBSNewArray<vtkIdTypeArray>("FacePatches", nurbs::PatchVisibilityCount, faces);
+  auto status = vtkNURBSNewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
+  auto messages = vtkNURBSNewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
   for (vtkIdType f = 0; f < faces; ++f)
   {
     const nurbs::FaceSilhouette& face = range.Result->Faces[range.First + f];
@@ -90,14 +82,14 @@ void vtkNURBSLineOutput::FillLines(
   output->Initialize();
   vtkNURBSModel::PassWithoutStructure(grid->GetFieldData(), output->GetFieldData());
   const std::vector<SilhouetteLine>& lines = range.Result->Lines;
-  auto xyz = NewArray<vtkDoubleArray>("Points", 3);
-  auto uv = NewArray<vtkDoubleArray>("UV", 2);
-  auto cosine = NewArray<vtkDoubleArray>("NormalDotView", 1);
-  auto owners = NewArray<vtkIdTypeArray>("Faces", 1);
-  auto edges = NewArray<vtkIdTypeArray>(vtkNURBSModel::EdgeIdName(), 1);
-  auto kinds = NewArray<vtkUnsignedCharArray>("Kind", 1);
-  auto creases = NewArray<vtkUnsignedCharArray>("OnCrease", 1);
-  auto chains = NewArray<vtkIdTypeArray>("Chain", 1);
+  auto xyz = vtkNURBSNewArray<vtkDoubleArray>("Points", 3);
+  auto uv = vtkNURBSNewArray<vtkDoubleArray>("UV", 2);
+  auto cosine = vtkNURBSNewArray<vtkDoubleArray>("NormalDotView", 1);
+  auto owners = vtkNURBSNewArray<vtkIdTypeArray>("Faces", 1);
+  auto edges = vtkNURBSNewArray<vtkIdTypeArray>(vtkNURBSModel::EdgeIdName(), 1);
+  auto kinds = vtkNURBSNewArray<vtkUnsignedCharArray>("Kind", 1);
+  auto creases = vtkNURBSNewArray<vtkUnsignedCharArray>("OnCrease", 1);
+  auto chains = vtkNURBSNewArray<vtkIdTypeArray>("Chain", 1);
   PointNumbers numbers(lines);
   vtkNew<vtkCellArray> cells;
   std::vector<vtkIdType> ids;

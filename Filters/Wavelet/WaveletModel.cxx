@@ -304,6 +304,37 @@ WaveletSelection WaveletModel::SelectLevels(const std::vector<int>& levels) cons
   return out;
 }
 
+// Levels of edges whose faces have theirs: too coarse are
+// those levels of Haar's wavelets, and segments of the others, for which the functions say so.
+void WaveletModel::SelectEdges(WaveletSelection& out,
+  const std::function<bool(const WaveletEdge&, int)>& coarseLevel,
+  const std::function<bool(const WaveletEdge&, int, int)>& coarseSegment) const
+{
+  for (std::size_t e = 0; e < this->Edges.size(); ++e)
+  {
+    const WaveletEdge* edge = this->Edges[e].get();
+    if (!edge || edge->IsPole())
+    {
+      continue;
+    }
+    int level = edge->Axis().Depth;
+    if (this->Options.Kind == Wavelet::Haar)
+    {
+      // Where an edge has the level of its faces, their cells reach it.
+      level = edge->LevelOfSides(out.Level, level);
+      while (level > 0 && coarseLevel(*edge, level))
+      {
+        --level;
+      }
+    }
+    out.SetEdgeLevel(e, *edge, level);
+    if (this->Options.Kind != Wavelet::Haar)
+    {
+      out.RefineEdge(e, [&](int first, int last) { return coarseSegment(*edge, first, last); });
+    }
+  }
+}
+
 WaveletSelection WaveletModel::SelectError(double tolerance) const
 {
   WaveletSelection out(this->Options.Kind, this->Faces.size(), this->Edges.size());
@@ -328,31 +359,11 @@ WaveletSelection WaveletModel::SelectError(double tolerance) const
         }
       }
     });
-  for (std::size_t e = 0; e < this->Edges.size(); ++e)
-  {
-    const WaveletEdge* edge = this->Edges[e].get();
-    if (!edge || edge->IsPole())
-    {
-      continue;
-    }
-    int level = edge->Axis().Depth;
-    if (this->Options.Kind == Wavelet::Haar)
-    {
-      // Where an edge has the level of its faces, their cells reach it.
-      level = edge->LevelOfSides(out.Level, level);
-      while (level > 0 && edge->HaarError(level) > tolerance)
-      {
-        --level;
-      }
-    }
-    out.SetEdgeLevel(e, *edge, level);
-    if (this->Options.Kind != Wavelet::Haar)
-    {
-      out.RefineEdge(e, [&](int first, int last) {
-        return edge->SegmentError(first, last) > EdgeShare * tolerance;
-      });
-    }
-  }
+  this->SelectEdges(
+    out, [&](const WaveletEdge& edge, int level) { return edge.HaarError(level) > tolerance; },
+    [&](const WaveletEdge& edge, int first, int last) {
+      return edge.SegmentError(first, last) > EdgeShare * tolerance;
+    });
   return out;
 }
 
@@ -372,29 +383,11 @@ WaveletSelection WaveletModel::SelectThreshold(double threshold) const
       out.SetLevel(f, *face, LevelWithin(*face, threshold));
     }
   }
-  for (std::size_t e = 0; e < this->Edges.size(); ++e)
-  {
-    const WaveletEdge* edge = this->Edges[e].get();
-    if (!edge || edge->IsPole())
-    {
-      continue;
-    }
-    int level = edge->Axis().Depth;
-    if (this->Options.Kind == Wavelet::Haar)
-    {
-      level = edge->LevelOfSides(out.Level, level);
-      while (level > 0 && edge->HaarDropped(level) > threshold)
-      {
-        --level;
-      }
-    }
-    out.SetEdgeLevel(e, *edge, level);
-    if (this->Options.Kind != Wavelet::Haar)
-    {
-      out.RefineEdge(
-        e, [&](int first, int last) { return edge->LargestCoefficient(first, last) > threshold; });
-    }
-  }
+  this->SelectEdges(
+    out, [&](const WaveletEdge& edge, int level) { return edge.HaarDropped(level) > threshold; },
+    [&](const WaveletEdge& edge, int first, int last) {
+      return edge.LargestCoefficient(first, last) > threshold;
+    });
   return out;
 }
 

@@ -74,6 +74,9 @@ public:
   WaveletMeshes TriangleBudget(std::int64_t triangles) const;
 
 private:
+  void SelectEdges(WaveletSelection& out,
+    const std::function<bool(const WaveletEdge&, int)>& coarseLevel,
+    const std::function<bool(const WaveletEdge&, int, int)>& coarseSegment) const;
   WaveletSelection SelectLevels(const std::vector<int>& levels) const;
   WaveletSelection SelectError(double tolerance) const;
   WaveletSelection SelectThreshold(double threshold) const;

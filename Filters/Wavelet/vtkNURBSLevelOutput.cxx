@@ -9,6 +9,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNURBSModel.h"
+#include "vtkNURBSNewArray.h"
 #include "vtkNURBSParallel.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -27,36 +28,18 @@ namespace
 using nurbs::WaveletMesh;
 using vtkNURBSLevelOutput::Range;
 
-template <typename ArrayT>
-vtkSmartPointer<ArrayT> NewArray(const char* name, int components, vtkIdType tuples)
-{
-  auto array = vtkSmartPointer<ArrayT>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
-template <typename ArrayT, typename T>
-void AddValue(vtkFieldData* field, const char* name, T value)
-{
-  auto array = NewArray<ArrayT>(name, 1, 1);
-  array->SetValue(0, value);
-  field->AddArray(array);
-}
-
 void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* mesh)
 {
   vtkFieldData* field = mesh->GetFieldData();
   const vtkIdType faces = vtkIdType(range.Last - range.First);
   const int count = range.Model->Levels();
-  auto ids = NewArray<vtkIdTypeArray>("FaceIds", 1, faces);
-  auto errors = NewArray<vtkDoubleArray>("FaceErrorBound", 1, faces);
-  auto levels = NewArray<vtkIntArray>("FaceLevel", 1, faces);
-  auto counts = NewArray<vtkIntArray>("FaceNumberOfLevels", 1, faces);
-  auto bounds = NewArray<vtkDoubleArray>("FaceLevelErrorBounds", count, faces);
-  auto status = NewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
-  auto messages = NewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
+  auto ids = vtkNURBSNewArray<vtkIdTypeArray>("FaceIds", 1, faces);
+  auto errors = vtkNURBSNewArray<vtkDoubleArray>("FaceErrorBound", 1, faces);
+  auto levels = vtkNURBSNewArray<vtkIntArray>("FaceLevel", 1, faces);
+  auto counts = vtkNURBSNewArray<vtkIntArray>("FaceNumberOfLevels", 1, faces);
+  auto bounds = vtkNURBSNewArray<vtkDoubleArray>("FaceLevelErrorBounds", count, faces);
+  auto status = vtkNURBSNewArray<vtkUnsignedCharArray>("FaceStatus", 1, faces);
+  auto messages = vtkNURBSNewArray<vtkStringArray>("FaceStatusMessage", 1, faces);
   double largest = 0.0;
   for (vtkIdType f = 0; f < faces; ++f)
   {
@@ -81,10 +64,10 @@ void FillFieldData(const Range& range, vtkUnstructuredGrid* grid, vtkPolyData* m
   field->AddArray(bounds);
   field->AddArray(status);
   field->AddArray(messages);
-  AddValue<vtkDoubleArray>(field, "ErrorBound", largest);
-  AddValue<vtkDoubleArray>(field, "Threshold", range.Meshes->Threshold);
-  AddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
-  AddValue<vtkIntArray>(field, "NumberOfLevels", count);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "ErrorBound", largest);
+  vtkNURBSAddValue<vtkDoubleArray>(field, "Threshold", range.Meshes->Threshold);
+  vtkNURBSAddValue<vtkIdTypeArray>(field, "NumberOfTriangles", mesh->GetNumberOfPolys());
+  vtkNURBSAddValue<vtkIntArray>(field, "NumberOfLevels", count);
 }
 
 } // namespace
@@ -101,10 +84,10 @@ void vtkNURBSLevelOutput::FillMesh(const Range& range, vtkUnstructuredGrid* grid
     firstPoint.push_back(firstPoint.back() + vtkIdType(face.Points.size()));
     firstTriangle.push_back(firstTriangle.back() + vtkIdType(face.Triangles.size() / 3));
   }
-  auto xyz = NewArray<vtkDoubleArray>("Points", 3, firstPoint.back());
-  auto normals = NewArray<vtkFloatArray>("Normals", 3, firstPoint.back());
-  auto uv = NewArray<vtkDoubleArray>("UV", 2, firstPoint.back());
-  auto owners = NewArray<vtkIdTypeArray>("Faces", 1, firstTriangle.back());
+  auto xyz = vtkNURBSNewArray<vtkDoubleArray>("Points", 3, firstPoint.back());
+  auto normals = vtkNURBSNewArray<vtkFloatArray>("Normals", 3, firstPoint.back());
+  auto uv = vtkNURBSNewArray<vtkDoubleArray>("UV", 2, firstPoint.back());
+  auto owners = vtkNURBSNewArray<vtkIdTypeArray>("Faces", 1, firstTriangle.back());
   vtkNew<vtkIdTypeArray> connectivity, starts;
   connectivity->SetNumberOfValues(3 * firstTriangle.back());
   starts->SetNumberOfValues(firstTriangle.back() + 1);

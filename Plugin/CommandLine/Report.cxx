@@ -62,6 +62,8 @@ void WriteReport(const Report& report, const std::string& path)
     json["written_faces"] = report.WrittenFaces;
     json["lost_faces"] = report.LostFaces;
     json["invalid_faces"] = report.InvalidFaces;
+    json["analytic_faces"] = report.AnalyticFaces;
+    json["instances"] = report.Instances;
     json["solids"] = report.Solids;
     json["shells"] = report.Shells;
     json["shared_edges"] = report.SharedEdges;

@@ -49,8 +49,10 @@ struct Report
 
   bool Converted = false; ///< whether the figures from here to EdgeTolerance say anything
   std::int64_t WrittenFaces = 0;
-  std::int64_t LostFaces = 0;    ///< that could not be written
-  std::int64_t InvalidFaces = 0; ///< that OpenCASCADE's check finds fault with
+  std::int64_t LostFaces = 0;     ///< that could not be written
+  std::int64_t InvalidFaces = 0;  ///< that OpenCASCADE's check finds fault with
+  std::int64_t AnalyticFaces = 0; ///< on planes, cylinders, cones, spheres and tori
+  std::int64_t Instances = 0;     ///< parts that are copies of others
   std::int64_t Solids = 0;
   std::int64_t Shells = 0; ///< that are no part of a solid
   std::int64_t SharedEdges = 0;

@@ -314,6 +314,7 @@ void PrintConversion(const Session& session)
       text << ", " << count << what;
     }
   };
+  mention(figures.Instances, figures.Instances == 1 ? " instance" : " instances");
   mention(figures.ComputedEdges, " edge curves computed");
   mention(figures.TornEdges, " edges torn");
   mention(figures.InvalidFaces, " faces not valid");

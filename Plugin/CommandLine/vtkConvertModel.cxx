@@ -48,6 +48,8 @@ void WriteCAD(vtkDataObject* model, const Arguments& arguments, const ProgressFu
   report.WrittenFaces = writer->GetNumberOfFaces();
   report.LostFaces = writer->GetNumberOfFailedFaces();
   report.InvalidFaces = writer->GetNumberOfInvalidFaces();
+  report.AnalyticFaces = writer->GetNumberOfAnalyticFaces();
+  report.Instances = writer->GetNumberOfInstances();
   report.Solids = writer->GetNumberOfSolids();
   report.Shells = writer->GetNumberOfShells();
   report.SharedEdges = writer->GetNumberOfSharedEdges();

@@ -52,6 +52,25 @@ offence 'unfinished work is marked' < <(
   list | xargs -r grep -HnwE 'TODO|FIXME|XXX|HACK' || true)
 offence 'a file has fewer than 700 lines' < <(
   list | xargs -r wc -l | awk '$2 != "total" && $1 >= 700 { print $2 ":" $1 ":" }')
+# A class of one name in two files is one class to the linker, whichever library has it: a file's own
+# types belong into an anonymous namespace. Types begin at the start of a line, namespaces end with
+# "} // namespace", as clang-format has it.
+offence 'namespace nurbs has a type of this name already' < <(
+  list | grep -E '^(Filters|Rendering|Plugin)/' | xargs -r awk '
+    FNR == 1 { depth = 0 }
+    /^namespace( |$)/ { names[++depth] = $2 }
+    /^} \/\/ namespace/ { --depth }
+    /^(struct|class|union|enum) / && !/;$/ {
+      space = ""
+      for (i = 1; i <= depth; ++i) { space = names[i] == "" ? "-" : space names[i] "::" }
+      if (space !~ /^nurbs::/) { next }
+      sub(/^(struct|class|union|enum class|enum) /, "")
+      sub(/^[A-Z_0-9]+ /, "")
+      if (!match($0, /^[A-Za-z0-9_]+/) || substr($0, RLENGTH + 1) ~ /^(::|<)/) { next }
+      name = space substr($0, 1, RLENGTH)
+      if (name in seen) { print FILENAME ":" FNR ": " name; print seen[name] ": " name }
+      seen[name] = FILENAME ":" FNR
+    }')
 
 if [ "$offences" -gt 0 ]; then
   echo "layering: $offences offences in ${#sources[@]} files"

@@ -48,4 +48,12 @@ touch "$tree/Filters/Tessellation/Tessellator.h"
 try refused Filters/Sources/Shapes.cxx '#include "Tessellator.h"'
 try accepted Filters/Tessellation/Tessellator.cxx '#include "Tessellator.h"'
 
+two='namespace nurbs\n{\nstruct Point\n{\n};\n} // namespace nurbs'
+hidden='namespace nurbs\n{\nnamespace\n{\nstruct Point\n{\n};\n} // namespace\n} // namespace nurbs'
+printf '%b\n' "$two" >"$tree/Filters/Core/Points.cxx"
+try refused Filters/Tessellation/Tessellator.cxx "$two"
+try accepted Filters/Tessellation/Tessellator.cxx "$hidden"
+try accepted Filters/Tessellation/Tessellator.cxx 'namespace nurbs\n{\nstruct Point;\n} // namespace nurbs'
+try refused Filters/Tessellation/Tessellator.cxx "${two/struct Point/enum class Point}"
+
 [ "$failures" -eq 0 ] && echo "layering.sh sees what it is for"

@@ -9,6 +9,7 @@
 #include "vtkNURBSModel.h"
 #include "vtkNURBSModelView.h"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <CLI/CLI.hpp>
@@ -37,6 +38,7 @@ using namespace verify;
 struct Counts
 {
   int Faces = 0, Solids = 0, SharedEdges = 0, Invalid = 0;
+  int Elementary = 0; // Faces on planes, cylinders, cones, spheres and tori.
   double Area = 0.0;
 };
 
@@ -66,6 +68,7 @@ Counts CountShape(const ReferenceShape& shape)
   {
     counts.Invalid += analyzer.IsValid(face) ? 0 : 1;
     counts.Area += AreaOf(face);
+    counts.Elementary += BRepAdaptor_Surface(face).GetType() <= GeomAbs_Torus ? 1 : 0;
   }
   return counts;
 }
@@ -186,7 +189,9 @@ Deviations Compare(vtkUnstructuredGrid* grid, const ReferenceShape& original,
 struct Total
 {
   int Files = 0, Agreeing = 0;
-  long long Faces = 0, Invalid = 0;
+  long long Cells = 0, Faces = 0, Invalid = 0, Shared = 0, Elementary = 0;
+  Counts Before, After;
+  std::vector<double> Surface; // Over the diagonal.
 };
 std::map<std::string, Total> Totals;
 
@@ -228,9 +233,36 @@ bool Report(const std::string& file, const std::string& ending, double limit, bo
   Total& total = Totals[ending];
   ++total.Files;
   total.Agreeing += agrees ? 1 : 0;
+  total.Cells += grid->GetNumberOfCells();
   total.Faces += writer->GetNumberOfFaces();
   total.Invalid += writer->GetNumberOfInvalidFaces();
+  total.Shared += writer->GetNumberOfSharedEdges();
+  total.Elementary += writer->GetNumberOfAnalyticFaces();
+  for (const auto& [sum, one] :
+    { std::pair(&total.Before, &before), std::pair(&total.After, &after) })
+  {
+    sum->Solids += one->Solids;
+    sum->SharedEdges += one->SharedEdges;
+    sum->Invalid += one->Invalid;
+    sum->Elementary += one->Elementary;
+  }
+  total.Surface.push_back(off.Surface / original.Diagonal);
   return agrees;
+}
+
+void PrintTotal(const std::string& format, Total& total, double limit)
+{
+  std::sort(total.Surface.begin(), total.Surface.end());
+  std::printf(
+    "%s: %d of %d files agree within %g of the diagonal, and their surfaces within %.0e, as "
+    "the median has it;\n"
+    "  faces written %lld of %lld; shared edges %lld of %d; solids read %d of %d;\n"
+    "  elementary surfaces written %lld, read %d, in the originals %d;\n"
+    "  faces not valid: as written %lld, as read %d, in the originals %d\n",
+    format.c_str(), total.Agreeing, total.Files, limit, total.Surface[total.Surface.size() / 2],
+    total.Faces, total.Cells, total.Shared, total.Before.SharedEdges, total.After.Solids,
+    total.Before.Solids, total.Elementary, total.After.Elementary, total.Before.Elementary,
+    total.Invalid, total.After.Invalid, total.Before.Invalid);
 }
 
 } // namespace
@@ -282,12 +314,9 @@ int main(int argc, char** argv)
       }
     }
   }
-  for (const auto& [format, total] : Totals)
+  for (auto& [format, total] : Totals)
   {
-    std::printf(
-      "%s: %d of %d files agree within %g of the diagonal; %lld faces written, %lld of them "
-      "not valid\n",
-      format.c_str(), total.Agreeing, total.Files, limit, total.Faces, total.Invalid);
+    PrintTotal(format, total, limit);
   }
   return status;
 }

@@ -33,7 +33,7 @@ class Convert(Folder):
             self.assertIn("10 faces, 1 solid, 0 shells, 22 shared edges", self.out)
             self.assertEqual(self.err, "")
             for key, value in (("written_faces", 10), ("lost_faces", 0), ("invalid_faces", 0),
-                               ("solids", 1), ("shells", 0), ("shared_edges", 22),
+                               ("analytic_faces", 10), ("instances", 0), ("solids", 1), ("shells", 0), ("shared_edges", 22),
                                ("torn_edges", 0)):
                 self.assertEqual(report[key], value, (name, key))
             again = self.info(path)
