@@ -18,13 +18,11 @@ namespace
 constexpr double FlatEnough = 0.3;
 /// The tangent of the angle between ray and normal for which that is meant.
 constexpr double SteepEnough = 1.0;
-/// A patch is halved this often at most.
-constexpr int MaxHalvings = 10;
 /// Cells are not made smaller than this part of the model.
 constexpr double SmallestCell = 1e-4;
 /// Parts that a monotone piece of a trim curve is cut into, to tell which cells it meets.
 constexpr int CurveSteps = 8;
-/// Up to this factor, derivatives are more than a quarter of those in the cell's middle.
+/// Up to this factor, derivatives are more than a quarter of those in the piece's middle.
 constexpr double SafeFactor = 0.75;
 
 /// A float that is not less; large ones stay finite.
@@ -175,71 +173,62 @@ TrimCover CoverTest::Cover(const Box2& rectangle) const
   return inside ? TrimCover::Whole : TrimCover::None;
 }
 
-/// What stays the same while a patch is cut.
-struct PatchCutter::Context
-{
-  const CoverTest& Test;
-  double Reach;
-  Interval Domain[2]; ///< The patch's, normalised to the face's.
+PatchCutter::Context::Context(const CoverTest& test, double reach, const BezierPatch& given)
+  : Test(test)
+  , Reach(reach)
+  , Domain{ { test.Normalise(0, given.U.Min), test.Normalise(0, given.U.Max) },
+    { test.Normalise(1, given.V.Min), test.Normalise(1, given.V.Max) } }
+{}
 
-  /// What is left of a piece, or within reach of that.
-  TrimCover Cover(const BezierPatch& piece, const PatchRays::Cell& cell) const
+TrimCover PatchCutter::Context::Cover(const CutPiece& piece) const
+{
+  Box2 rectangle;
+  for (int d = 0; d < 2; ++d)
   {
-    Box2 rectangle;
-    for (int d = 0; d < 2; ++d)
-    {
-      const Interval& part = d == 0 ? piece.U : piece.V;
-      const double length = this->Domain[d].Length();
-      const double most = length * part.Length() * 4.0 * this->Reach /
-        std::max(cell.D[d].norm(), std::numeric_limits<double>::min());
-      const double margin = std::min(1.0, most) + 1e-9;
-      rectangle.min()[d] = this->Domain[d].Min + part.Min * length - margin;
-      rectangle.max()[d] = this->Domain[d].Min + part.Max * length + margin;
-    }
-    return this->Test.Cover(rectangle);
+    const Interval& part = d == 0 ? piece.Patch.U : piece.Patch.V;
+    const double length = this->Domain[d].Length();
+    const double most = length * part.Length() * this->Reach /
+      std::max(piece.Slowest[d], std::numeric_limits<double>::min());
+    const double margin = std::min(1.0, most) + 1e-9;
+    rectangle.min()[d] = this->Domain[d].Min + part.Min * length - margin;
+    rectangle.max()[d] = this->Domain[d].Min + part.Max * length + margin;
   }
-};
+  return this->Test.Cover(rectangle);
+}
+
+Box3 CutPiece::Box() const
+{
+  Box3 box;
+  for (const Vec4& h : this->Patch.Points)
+  {
+    box.extend(h.head<3>() / h[3]);
+  }
+  return box;
+}
 
 void PatchCutter::Add(
   const BezierPatch& given, std::int32_t face, const CoverTest& test, double reach)
 {
-  const Context context{ test, reach,
-    { { test.Normalise(0, given.U.Min), test.Normalise(0, given.U.Max) },
-      { test.Normalise(1, given.V.Min), test.Normalise(1, given.V.Max) } } };
-  BezierPatch patch = given;
-  double heaviest = 0.0;
-  double lightest = std::numeric_limits<double>::infinity();
-  for (const Vec4& h : patch.Points)
-  {
-    heaviest = std::max(heaviest, h[3]);
-    lightest = std::min(lightest, h[3]);
-  }
-  for (Vec4& h : patch.Points)
-  {
-    h /= heaviest;
-  }
-  this->Patches.push_back({ { patch.Degree[0], patch.Degree[1] }, face,
-    static_cast<std::int64_t>(this->Points.size()), { patch.U, patch.V } });
-  this->Points.insert(this->Points.end(), patch.Points.begin(), patch.Points.end());
-  patch.U = Interval();
-  patch.V = Interval();
+  CutPiece whole = Whole(given);
+  const auto first = static_cast<std::int64_t>(this->Points.size());
+  this->Patches.push_back(
+    { { given.Degree[0], given.Degree[1] }, face, first, { given.U, given.V } });
+  this->Points.insert(this->Points.end(), whole.Patch.Points.begin(), whole.Patch.Points.end());
   const std::size_t before = this->Cells.size();
-  QuotientNet quotients;
-  if (lightest < heaviest)
-  {
-    quotients = MakeQuotients(patch);
-  }
-  this->Cut(context, patch, quotients, 0);
+  this->Cut(Context(test, reach, given), whole);
   if (this->Cells.size() == before)
   {
-    this->Points.resize(static_cast<std::size_t>(this->Patches.back().First));
+    this->Points.resize(static_cast<std::size_t>(first));
     this->Patches.pop_back();
   }
 }
 
+namespace
+{
+
 /// Products of Bezier polynomials (Farin, Curves and Surfaces for CAGD, section 5.5), derivatives
 /// raised to the patch's degree.
-PatchCutter::QuotientNet PatchCutter::MakeQuotients(const BezierPatch& patch)
+QuotientNet MakeQuotients(const BezierPatch& patch)
 {
   const int p = patch.Degree[0];
   const int q = patch.Degree[1];
@@ -266,6 +255,7 @@ PatchCutter::QuotientNet PatchCutter::MakeQuotients(const BezierPatch& patch)
   }
   const std::vector<double> bu = Binomials(p), bv = Binomials(q);
   const std::vector<double> bbu = Binomials(2 * p), bbv = Binomials(2 * q);
+  using Quotient = QuotientNet::value_type;
   QuotientNet product((2 * p + 1) * (2 * q + 1), Quotient::Zero());
   for (int a = 0; a < (p + 1) * (q + 1); ++a)
   {
@@ -287,56 +277,100 @@ PatchCutter::QuotientNet PatchCutter::MakeQuotients(const BezierPatch& patch)
   return product;
 }
 
-/// Makes `piece` (its U and V are parameters of the patch) one cell, or two halves of cells.
-void PatchCutter::Cut(
-  const Context& context, const BezierPatch& piece, QuotientNet& quotients, int depth)
+} // namespace
+
+CutPiece PatchCutter::Whole(const BezierPatch& given)
 {
-  PatchRays::Cell cell;
-  int dir;
-  const double turn = this->Flatten(piece, quotients, cell, dir);
-  const TrimCover cover = turn <= SafeFactor ? context.Cover(piece, cell) : TrimCover::Part;
-  if (cover == TrimCover::None)
+  CutPiece piece;
+  piece.Patch = given;
+  double heaviest = 0.0;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const Vec4& h : given.Points)
   {
-    return;
+    heaviest = std::max(heaviest, h[3]);
+    lightest = std::min(lightest, h[3]);
   }
-  cell.IsWhole = cover == TrimCover::Whole;
-  if (turn <= FlatEnough || depth == MaxHalvings || cell.Radius < SmallestCell * this->Size)
+  for (Vec4& h : piece.Patch.Points)
   {
-    cell.Patch = static_cast<std::int32_t>(this->Patches.size()) - 1;
-    Box3 box;
-    for (const Vec4& h : piece.Points)
+    h /= heaviest;
+  }
+  piece.Patch.U = Interval();
+  piece.Patch.V = Interval();
+  if (lightest < heaviest)
+  {
+    piece.Quotients = MakeQuotients(piece.Patch);
+  }
+  return piece;
+}
+
+void PatchCutter::Judge(const Context& context, CutPiece& piece)
+{
+  const double turn = this->Flatten(piece);
+  if (turn <= SafeFactor)
+  {
+    for (int d = 0; d < 2; ++d)
     {
-      box.extend(h.head<3>() / h[3]);
+      piece.Slowest[d] = std::max(piece.Slowest[d], 0.25 * piece.Cell.D[d].norm());
     }
-    this->Cells.push_back(cell);
-    this->Boxes.push_back(box);
-    return;
   }
-  BezierPatch low, high;
-  SplitBezierPatch(piece, dir, 0.5, low, high);
-  QuotientNet lowQuotients;
-  if (!quotients.empty())
+  const TrimCover cover = turn <= SafeFactor || std::min(piece.Slowest[0], piece.Slowest[1]) > 0.0
+    ? context.Cover(piece)
+    : TrimCover::Part;
+  piece.Cell.IsWhole = cover == TrimCover::Whole;
+  const bool isCell = turn <= FlatEnough || piece.Depth == MaxHalvings ||
+    piece.Cell.Radius < SmallestCell * this->Size;
+  piece.Is = cover == TrimCover::None ? CutPiece::Verdict::Empty
+    : isCell                          ? CutPiece::Verdict::Cell
+                                      : CutPiece::Verdict::Halve;
+}
+
+void PatchCutter::Halve(CutPiece& piece, CutPiece& low, CutPiece& high)
+{
+  const int dir = piece.Direction;
+  SplitBezierPatch(piece.Patch, dir, 0.5, low.Patch, high.Patch);
+  low.Depth = high.Depth = piece.Depth + 1;
+  high.Quotients = std::move(piece.Quotients);
+  if (!high.Quotients.empty())
   {
-    const int count[2] = { 2 * piece.Degree[0] + 1, 2 * piece.Degree[1] + 1 };
-    HalveNet(quotients, count, dir, lowQuotients);
-    for (QuotientNet* net : { &lowQuotients, &quotients })
+    const int count[2] = { 2 * piece.Patch.Degree[0] + 1, 2 * piece.Patch.Degree[1] + 1 };
+    HalveNet(high.Quotients, count, dir, low.Quotients);
+    for (QuotientNet* net : { &low.Quotients, &high.Quotients })
     {
-      for (Quotient& quotient : *net)
+      for (auto& quotient : *net)
       {
         quotient.segment<3>(3 * dir) *= 0.5;
       }
     }
   }
-  this->Cut(context, low, lowQuotients, depth + 1);
-  this->Cut(context, high, quotients, depth + 1);
+  piece.Patch.Points = std::vector<Vec4>();
+}
+
+void PatchCutter::Cut(const Context& context, CutPiece& piece)
+{
+  this->Judge(context, piece);
+  if (piece.Is == CutPiece::Verdict::Cell)
+  {
+    piece.Cell.Patch = static_cast<std::int32_t>(this->Patches.size()) - 1;
+    this->Cells.push_back(piece.Cell);
+    this->Boxes.push_back(piece.Box());
+  }
+  else if (piece.Is == CutPiece::Verdict::Halve)
+  {
+    CutPiece low, high;
+    Halve(piece, low, high);
+    this->Cut(context, low);
+    this->Cut(context, high);
+  }
 }
 
 /// Fills in the cell of a piece. Returns by how much the derivatives vary, as the factor by which s
-/// - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and in `dir` the direction
-/// in which they do so more.
-double PatchCutter::Flatten(
-  const BezierPatch& piece, const QuotientNet& quotients, PatchRays::Cell& cell, int& dir)
+/// - Y g(s) contracts for a ray at a slope of SteepEnough to the normal, and sets the direction in
+/// which they do so more.
+double PatchCutter::Flatten(CutPiece& given)
 {
+  const BezierPatch& piece = given.Patch;
+  const QuotientNet& quotients = given.Quotients;
+  PatchRays::Cell& cell = given.Cell;
   const int p = piece.Degree[0];
   const int q = piece.Degree[1];
   PatchPoint middle;
@@ -360,6 +394,12 @@ double PatchCutter::Flatten(
     int count[2] = { p + (d == 0 ? 0 : 1), q + (d == 1 ? 0 : 1) };
     std::vector<Vec3>& net = this->Scratch;
     net.clear();
+    const Vec3 along = cell.D[d].stableNormalized();
+    double slowest = std::numeric_limits<double>::infinity();
+    const auto add = [&](const Vec3& vector) {
+      slowest = std::min(slowest, along.dot(vector));
+      net.push_back(frame.Coordinates(vector));
+    };
     if (quotients.empty())
     {
       const int step = d == 0 ? 1 : p + 1;
@@ -368,7 +408,7 @@ double PatchCutter::Flatten(
         const Vec4* h = piece.Points.data() + j * (p + 1);
         for (int i = 0; i < count[0]; ++i, ++h)
         {
-          net.push_back(frame.Coordinates(piece.Degree[d] / h[0][3] * (h[step] - h[0]).head<3>()));
+          add(piece.Degree[d] / h[0][3] * (h[step] - h[0]).head<3>());
         }
       }
     }
@@ -376,11 +416,12 @@ double PatchCutter::Flatten(
     {
       count[0] = 2 * p + 1;
       count[1] = 2 * q + 1;
-      for (const Quotient& quotient : quotients)
+      for (const auto& quotient : quotients)
       {
-        net.push_back(frame.Coordinates(quotient.segment<3>(3 * d) / quotient[6]));
+        add(quotient.segment<3>(3 * d) / quotient[6]);
       }
     }
+    given.Slowest[d] = std::max(slowest, 0.0);
     const Vec3 own = frame.Coordinates(cell.D[d]);
     const Vec3* here = net.data();
     for (int j = 0; j < count[1]; ++j)
@@ -409,7 +450,7 @@ double PatchCutter::Flatten(
   const double factor = ContractionFactor(matrix(whole), right);
   ContractionFactor(matrix(whole).transpose(), left);
   const double shares[2] = { left.dot(matrix(bend[0]) * right), left.dot(matrix(bend[1]) * right) };
-  dir = shares[0] >= shares[1] ? 0 : 1;
+  given.Direction = shares[0] >= shares[1] ? 0 : 1;
   for (int d = 0; d < 2; ++d)
   {
     cell.Along[0][d] = RoundUp(whole.Along(0, d));

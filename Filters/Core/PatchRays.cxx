@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchRays.h"
 
+#include "CellForest.h"
 #include "Model.h"
 #include "PatchCutter.h"
 #include "PieceSearch.h"
@@ -117,24 +118,49 @@ RayPlanes::RayPlanes(const Vec3& origin, const Vec3& direction)
   }
 }
 
-void PatchRays::Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
-  const ParallelFor& parallel)
+void PatchRays::Measure(const Model& model, double& size, double& rounding)
 {
-  this->Box.setEmpty();
+  Box3 box;
   for (const Face& face : model.Faces)
   {
     for (std::int64_t k = 0; k < face.Geometry.Size(); ++k)
     {
-      this->Box.extend(face.Geometry.Point(k));
+      box.extend(face.Geometry.Point(k));
     }
   }
-  if (this->Box.isEmpty())
+  size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  rounding = box.isEmpty()
+    ? 0.0
+    : 4e-15 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+}
+
+void PatchRays::Build(const Model& model, const CellForest& forest)
+{
+  Measure(model, this->Size, this->Rounding);
+  for (std::int32_t k = 0; k < forest.Count(); ++k)
   {
-    return;
+    const BezierPatch& patch = forest.GivenPatch(k);
+    this->Patches.push_back({ { patch.Degree[0], patch.Degree[1] }, forest.FaceOf(k),
+      static_cast<std::int64_t>(this->Points.size()), { patch.U, patch.V } });
+    double heaviest = 0.0;
+    for (const Vec4& h : patch.Points)
+    {
+      heaviest = std::max(heaviest, h[3]);
+    }
+    for (const Vec4& h : patch.Points)
+    {
+      this->Points.push_back(h / heaviest);
+    }
   }
-  this->Size = this->Box.diagonal().norm();
-  this->Rounding =
-    4e-15 * std::max(this->Box.min().cwiseAbs().maxCoeff(), this->Box.max().cwiseAbs().maxCoeff());
+  this->CellBoxes = forest.Boxes();
+  this->Box = forest.Bounds();
+  this->Size = this->Box.isEmpty() ? 0.0 : this->Box.diagonal().norm();
+}
+
+void PatchRays::Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+  const ParallelFor& parallel)
+{
+  Measure(model, this->Size, this->Rounding);
   const std::int64_t count = static_cast<std::int64_t>(model.Faces.size());
   std::vector<PatchCutter> cut(count, PatchCutter(this->Size));
   parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
@@ -202,10 +228,8 @@ std::size_t PatchRays::MemoryUse() const
     this->Cells.capacity() * sizeof(Cell) + this->CellBoxes.capacity() * sizeof(Box3);
 }
 
-void PatchRays::Intersect(
-  std::int32_t index, const RayPlanes& ray, std::vector<PatchHit>& hits) const
+void PatchRays::Intersect(const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const
 {
-  const Cell& cell = this->Cells[index];
   const Vec3 offset = cell.Middle - ray.Origin;
   const double x = ray.Normal[0].dot(offset);
   const double y = ray.Normal[1].dot(offset);

@@ -20,6 +20,7 @@
 namespace nurbs
 {
 
+class CellForest;
 class PatchCutter;
 struct Model;
 class TrimIndex;
@@ -67,6 +68,12 @@ public:
   void Build(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
     const ParallelFor& parallel);
 
+  /// Takes the patches only, of a forest that makes their cells when they are needed: its boxes become
+  /// Boxes(), its bounds Bounds().
+  void Build(const Model& model, const CellForest& forest);
+  /// Diagonal of the box of all control points, as patches are cut for, and what evaluating may err by.
+  static void Measure(const Model& model, double& size, double& rounding);
+
   /// Cells of all patches.
   std::int64_t CellCount() const { return static_cast<std::int64_t>(this->Cells.size()); }
   /// Patches of all faces.
@@ -85,28 +92,6 @@ public:
   /// The face of a cell.
   std::int32_t FaceOfCell(std::int32_t cell) const { return this->FaceOf(this->Cells[cell].Patch); }
 
-  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border
-  /// of cells, or within rounding of it, is found by each of them. Where a ray runs within the
-  /// surface along a curve, it has no intersections.
-  void Intersect(std::int32_t cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
-
-  /// Distances below this are rounding.
-  double GetRounding() const { return this->Rounding; }
-
-  /// Bytes occupied.
-  std::size_t MemoryUse() const;
-
-private:
-  friend class PatchCutter;
-
-  struct Patch
-  {
-    std::int32_t Degree[2];
-    std::int32_t Face;
-    std::int64_t First; ///< Of its (Degree[0] + 1) x (Degree[1] + 1) control points in Points.
-    Interval Domain[2];
-  };
-
   /// A part of a patch that is nearly flat.
   struct Cell
   {
@@ -120,6 +105,32 @@ private:
     float Low[2], High[2]; ///< The cell's part of the patch, exact (dyadic).
     std::int32_t Patch;
     bool IsWhole; ///< Nothing of it is trimmed away.
+  };
+
+  /// A cell by its index.
+  const Cell& CellAt(std::int32_t cell) const { return this->Cells[cell]; }
+
+  /// Appends the intersections of the whole line (not only t >= 0) with a cell. One on the border
+  /// of cells, or within rounding of it, is found by each of them. Where a ray runs within the
+  /// surface along a curve, it has no intersections.
+  void Intersect(const Cell& cell, const RayPlanes& ray, std::vector<PatchHit>& hits) const;
+
+  /// Distances below this are rounding.
+  double GetRounding() const { return this->Rounding; }
+
+  /// Bytes occupied.
+  std::size_t MemoryUse() const;
+
+private:
+  friend class PatchCutter;
+  friend class CellForest;
+
+  struct Patch
+  {
+    std::int32_t Degree[2];
+    std::int32_t Face;
+    std::int64_t First; ///< Of its (Degree[0] + 1) x (Degree[1] + 1) control points in Points.
+    Interval Domain[2];
   };
 
   void Join(std::vector<PatchCutter>& cut);

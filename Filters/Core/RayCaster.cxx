@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCaster.h"
 
+#include "CellForest.h"
 #include "Model.h"
 
 #include <algorithm>
@@ -70,6 +71,10 @@ struct RayCaster::Cast
 };
 
 RayCaster::RayCaster(const Model& model, const ParallelFor& parallel)
+  : RayCaster(model, Cutting::AtOnce, parallel)
+{}
+
+RayCaster::RayCaster(const Model& model, Cutting cutting, const ParallelFor& parallel)
   : Source(&model)
   , Trims(model, parallel)
 {
@@ -87,7 +92,19 @@ RayCaster::RayCaster(const Model& model, const ParallelFor& parallel)
   {
     this->Reach.push_back(2.0 * tolerance + least);
   }
-  this->Surfaces.Build(model, this->Trims, this->Reach, parallel);
+  if (cutting == Cutting::AtOnce)
+  {
+    this->Surfaces.Build(model, this->Trims, this->Reach, parallel);
+  }
+  else
+  {
+    double size, rounding;
+    PatchRays::Measure(model, size, rounding);
+    const auto forest =
+      std::make_shared<CellForest>(model, this->Trims, this->Reach, size, rounding, parallel);
+    this->Surfaces.Build(model, *forest);
+    this->Forest = forest;
+  }
   // Where a box is flat, rounding must not lose it.
   this->Tree.Build(this->Surfaces.Boxes(), 4.0 * this->Surfaces.GetRounding());
   this->Surfaces.ReleaseBoxes();
@@ -96,6 +113,7 @@ RayCaster::RayCaster(const Model& model, const ParallelFor& parallel)
 std::size_t RayCaster::MemoryUse() const
 {
   return this->Surfaces.MemoryUse() + this->Tree.MemoryUse() +
+    (this->Forest ? this->Forest->MemoryUse() : 0) +
     (this->Tolerance.capacity() + this->Reach.capacity()) * sizeof(double);
 }
 
@@ -156,7 +174,7 @@ void RayCaster::Walk(const Cast& cast, double& tMax, const Found& found) const
     throw Error("RayCaster: the ray has no direction, or a number that is not finite");
   }
   std::vector<PatchHit> hits;
-  this->Tree.Walk(BoxRay(origin, direction), cast.Min, tMax, [&](std::int32_t cell) {
+  const auto look = [&](const PatchRays::Cell& cell) {
     hits.clear();
     this->Surfaces.Intersect(cell, cast.Planes, hits);
     for (const PatchHit& hit : hits)
@@ -167,6 +185,17 @@ void RayCaster::Walk(const Cast& cast, double& tMax, const Found& found) const
       {
         found(hit, t, place);
       }
+    }
+  };
+  const BoxRay ray(origin, direction);
+  this->Tree.Walk(ray, cast.Min, tMax, [&](std::int32_t part) {
+    if (this->Forest)
+    {
+      this->Forest->Walk(part, ray, cast.Min, tMax, look);
+    }
+    else
+    {
+      look(this->Surfaces.CellAt(part));
     }
     return tMax;
   });

@@ -18,6 +18,7 @@
 #include "TrimIndex.h"
 
 #include <limits>
+#include <memory>
 
 namespace nurbs
 {
@@ -53,6 +54,20 @@ public:
   /// TrimIndex throws.
   explicit RayCaster(const Model& model, const ParallelFor& parallel = SerialFor);
 
+  /// When surfaces are cut into what rays are tested against.
+  enum class Cutting
+  {
+    AtOnce,
+    /// Where rays come near, under locks: quicker if they are fewer than parts of the model, and look
+    /// from one side. Their hits are the same.
+    WhenMet
+  };
+  /// As above.
+  RayCaster(const Model& model, Cutting cutting, const ParallelFor& parallel = SerialFor);
+
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
   /// The hit with the smallest t in the ray's range; of hits within 1e-9 of the model's size of each
   /// other, that on the first face. Returns false if there is none, and leaves `hit`. Throws Error if
   /// the direction is zero, or a number of the ray is NaN or an infinite vector.
@@ -73,10 +88,14 @@ public:
   /// nothing.
   const Box3& Bounds() const { return this->Surfaces.Bounds(); }
 
-  /// The tree over the parts of surfaces, and the face of each: for searches by box.
+  /// The tree over the parts of surfaces (cells, or with WhenMet patches), and the face of each: for
+  /// searches by box.
   const BoxTree& GetTree() const { return this->Tree; }
   /// The face of a part.
-  std::int64_t GetFace(std::int32_t part) const { return this->Surfaces.FaceOfCell(part); }
+  std::int64_t GetFace(std::int32_t part) const
+  {
+    return this->Forest ? this->Surfaces.FaceOf(part) : this->Surfaces.FaceOfCell(part);
+  }
 
   /// The model given.
   const Model& GetModel() const { return *this->Source; }
@@ -87,7 +106,10 @@ public:
   /// Bytes occupied, without those of the trim index.
   std::size_t MemoryUse() const;
   /// Parts of surfaces in the tree.
-  std::int64_t PartCount() const { return this->Surfaces.CellCount(); }
+  std::int64_t PartCount() const
+  {
+    return this->Forest ? this->Surfaces.PatchCount() : this->Surfaces.CellCount();
+  }
 
 private:
   struct Cast;
@@ -112,6 +134,7 @@ private:
   const Model* Source;
   TrimIndex Trims;
   PatchRays Surfaces;
+  std::shared_ptr<const CellForest> Forest; ///< With WhenMet.
   BoxTree Tree;
   std::vector<double> Tolerance; ///< A face's largest of its edges.
   std::vector<double> Reach;     ///< How far outside a face a hit may count.

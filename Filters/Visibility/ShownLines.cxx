@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace nurbs
@@ -64,13 +65,26 @@ public:
   void Find(std::int64_t line);
 
 private:
+  /// What is looked at of one step and side, each once.
+  struct Looks
+  {
+    const ViewLine& Line;
+    const LineStep& Step;
+    int Side;
+    std::optional<Vec3> Middle;
+    std::optional<FrontHit> There, Beside;
+  };
+
   Vec3 Middle(const ViewLine& line, const LineStep& step) const;
-  bool Shows(const ViewLine& line, const LineStep& step, int side) const;
+  const Vec3& Middle(Looks& looks) const;
+  const FrontHit& There(Looks& looks) const;
+  const FrontHit& Beside(Looks& looks) const;
+  bool Shows(Looks& looks) const;
   bool FindOf(const ViewLine& line, const std::vector<LineStep>& steps, std::size_t first,
     std::size_t last, int lineSide);
   bool LeadsTo(const FrontHit& hit, const Vec3& point) const;
   bool IsNeighbour(const ViewLine& line, std::int64_t face) const;
-  bool IsBare(const ViewLine& line, const LineStep& step, int side) const;
+  bool IsBare(Looks& looks) const;
   bool IsEdgeOn(const ViewLine& line) const;
   bool IsForemost(const ViewLine& line, const LineStep& step) const;
 
@@ -91,6 +105,35 @@ Vec3 ShownLines::Middle(const ViewLine& line, const LineStep& step) const
   return ExactPointAt(this->Lines, line, at).Point;
 }
 
+const Vec3& ShownLines::Middle(Looks& looks) const
+{
+  if (!looks.Middle)
+  {
+    looks.Middle = this->Middle(looks.Line, looks.Step);
+  }
+  return *looks.Middle;
+}
+
+// What is seen where the middle of the step is.
+const FrontHit& ShownLines::There(Looks& looks) const
+{
+  if (!looks.There)
+  {
+    looks.There = LookAt(this->Caster, this->Image, this->Image.Project(this->Middle(looks)));
+  }
+  return *looks.There;
+}
+
+// And beside it.
+const FrontHit& ShownLines::Beside(Looks& looks) const
+{
+  if (!looks.Beside)
+  {
+    looks.Beside = LookAt(this->Caster, this->Image, this->Map.Beside(looks.Step.Edge, looks.Side));
+  }
+  return *looks.Beside;
+}
+
 // True if the tangent plane leads to a point of another face of the cluster.
 bool ShownLines::LeadsTo(const FrontHit& hit, const Vec3& point) const
 {
@@ -102,23 +145,23 @@ bool ShownLines::LeadsTo(const FrontHit& hit, const Vec3& point) const
   return (reached - point).norm() <= NearerShare * (hit.Point - point).norm();
 }
 
-bool ShownLines::Shows(const ViewLine& line, const LineStep& step, int side) const
+bool ShownLines::Shows(Looks& looks) const
 {
-  const FrontHit& front = this->Map.Front(step.Edge, side);
+  const ViewLine& line = looks.Line;
+  const FrontHit& front = this->Map.Front(looks.Step.Edge, looks.Side);
   if (!line.IsIntersection() && this->Planar[front.Face])
   {
     return true; // A plane has one sheet in the image.
   }
-  const Vec3 point = this->Middle(line, step);
+  const Vec3& point = this->Middle(looks);
   if (line.IsIntersection())
   {
     // Both faces are seen on both sides of it, where nothing is in front.
-    const FrontHit there = LookAt(this->Caster, this->Image, this->Image.Project(point));
+    const FrontHit& there = this->There(looks);
     return there.Face < 0 ||
       this->Image.Depth(point) - this->Image.Depth(there.Point) <= this->Map.Pixel;
   }
-  const Vec2 beside = this->Map.Beside(step.Edge, side);
-  const FrontHit hit = LookAt(this->Caster, this->Image, beside);
+  const FrontHit& hit = this->Beside(looks);
   if (!this->Lines.AreJoined(hit.Face, front.Face))
   {
     return true; // Too near to tell; what the cell says goes.
@@ -157,30 +200,34 @@ bool ShownLines::IsNeighbour(const ViewLine& line, std::int64_t face) const
 
 // A face that turns away may be narrower than a pixel there, so that a neighbour's cell begins at its
 // silhouette. True if that is so, and nothing is in front of the line itself.
-bool ShownLines::IsBare(const ViewLine& line, const LineStep& step, int side) const
+bool ShownLines::IsBare(Looks& looks) const
 {
+  const ViewLine& line = looks.Line;
   // A cell wide enough to be trusted has one front: most lines are hidden by what is far from them.
-  const std::int32_t cell = this->Map.Cell(step.Edge, side);
+  const std::int32_t cell = this->Map.Cell(looks.Step.Edge, looks.Side);
   if (!this->Map.IsSliver(cell) && !this->IsNeighbour(line, this->Map.Cells[cell].Face))
   {
     return false;
   }
-  const Vec3 point = this->Middle(line, step);
-  const FrontHit beside = LookAt(this->Caster, this->Image, this->Map.Beside(step.Edge, side));
+  const Vec3& point = this->Middle(looks);
+  const FrontHit& beside = this->Beside(looks);
   // Of a surface that turns away with a radius up to the image's size.
   const double reach = std::sqrt(2.0 * SideReach * this->Map.Pixel * this->Size);
-  if (beside.Face < 0 ||
-    std::abs(this->Image.Depth(beside.Point) - this->Image.Depth(point)) > reach)
+  const double behind =
+    beside.Face < 0 ? reach : this->Image.Depth(beside.Point) - this->Image.Depth(point);
+  // A look within a pixel of the line may miss its surface, where the line is not exact.
+  const bool isMissed = behind >= reach &&
+    (this->Map.Beside(looks.Step.Edge, looks.Side) - this->Image.Project(point)).norm() <=
+      this->Map.Pixel;
+  if (!isMissed && (std::abs(behind) > reach || !this->IsNeighbour(line, beside.Face)))
   {
     return false;
   }
-  if (!this->IsNeighbour(line, beside.Face))
-  {
-    return false;
-  }
-  const FrontHit front = LookAt(this->Caster, this->Image, this->Image.Project(point));
+  // Where no surface beside the line is known to be its own, only what is at the same place is.
+  const double depth = isMissed || this->Map.Cells[cell].Face < 0 ? 1.0 : BareDepth;
+  const FrontHit& front = this->There(looks);
   return front.Face < 0 ||
-    this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
+    this->Image.Depth(point) - this->Image.Depth(front.Point) <= depth * this->Map.Pixel;
 }
 
 // True if no face of an edge is seen, because all are edge-on.
@@ -232,11 +279,10 @@ bool ShownLines::FindOf(const ViewLine& line, const std::vector<LineStep>& steps
     return false;
   }
   const LineStep& best = this->Walk.Widest(steps, first, last, lineSide);
-  const int side = this->Walk.Side(best, lineSide);
+  Looks looks{ line, best, this->Walk.Side(best, lineSide), {}, {}, {} };
   const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
-  const bool shows =
-    face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(line, best, side);
-  const bool isBare = !shows && face >= 0 && this->IsBare(line, best, side);
+  const bool shows = face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(looks);
+  const bool isBare = !shows && this->IsBare(looks);
   for (std::size_t k = first; k < last; ++k)
   {
     LineSource& source = this->Map.Sources[steps[k].Source];

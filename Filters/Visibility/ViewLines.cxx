@@ -321,7 +321,7 @@ void AddIntersections(
 
 ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
-  const ImagePlane& image, bool allSmooth)
+  const ImagePlane& image, bool allSmooth, std::shared_ptr<const FaceIntersections> known)
 {
   ViewLines out;
   SilhouetteOptions contours = options;
@@ -347,8 +347,10 @@ ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   piercing.Progress = [&](double done) {
     return report(SilhouettesDone + (1.0 - SilhouettesDone) * done);
   };
-  const FaceIntersections intersections =
-    FindIntersections(out.Whole.Data, trims, faceErrors, piercing);
+  out.Intersections = known ? std::move(known)
+                            : std::make_shared<const FaceIntersections>(
+                                FindIntersections(out.Whole.Data, trims, faceErrors, piercing));
+  const FaceIntersections& intersections = *out.Intersections;
   out.Aborted = intersections.Aborted;
   if (out.Aborted)
   {

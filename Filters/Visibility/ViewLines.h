@@ -8,6 +8,8 @@
 #include "ImagePlane.h"
 #include "Silhouette.h"
 
+#include <memory>
+
 namespace nurbs
 {
 
@@ -51,6 +53,8 @@ struct ViewLines
   std::vector<FaceSilhouette> Faces;
   /// Pairs of faces whose intersection curves may be missing; see FaceIntersections::Unresolved.
   std::vector<std::array<std::int64_t, 2>> Unresolved;
+  /// That the lines were made with.
+  std::shared_ptr<const FaceIntersections> Intersections;
   std::vector<char> IsShell; ///< One a face: it belongs to a closed, consistently oriented shell.
   /// One a face: the lowest of those that it goes on in across smooth edges that were left out.
   std::vector<std::int64_t> Cluster;
@@ -68,10 +72,12 @@ struct ViewLines
 /// Makes silhouettes (on their faces' left, as in Silhouette.h; closed ones repeat their first point),
 /// intersection curves and all edges but degenerate ones, smooth ones and seams, too, with chords within
 /// the precision of `options`. `trims`: of the model. Without `allSmooth`, smooth edges that hide
-/// nothing are left out, see FaceTheSameWay.
+/// nothing are left out, see FaceTheSameWay. `intersections`: of the model, with the precision of
+/// `options`, if they are known.
 ViewLines MakeViewLines(const Model& model, const TrimIndex& trims,
   const std::vector<std::string>& faceErrors, const SilhouetteOptions& options,
-  const ImagePlane& image, bool allSmooth = true);
+  const ImagePlane& image, bool allSmooth = true,
+  std::shared_ptr<const FaceIntersections> intersections = nullptr);
 
 /// True if the line may border what is seen of a face or its cluster: it is an edge that the face uses,
 /// its silhouette, or where it is pierced.

@@ -59,17 +59,28 @@ class RegionMaker
 {
 public:
   RegionMaker(const Model& model, const std::vector<std::string>& faceErrors,
-    const VisibleRegionOptions& options)
+    const VisibleRegionOptions& options, VisibilityCache& cache)
     : Source(model)
     , FaceErrors(faceErrors)
     , Options(options)
-    , Caster(model, options.Parallel)
+    , Cache(cache)
+    , Caster(CasterOf(model, options.Parallel, cache))
     , Image(options.View, options.Up, this->Bounds())
   {}
 
   VisibleRegions Run();
 
 private:
+  static const RayCaster& CasterOf(
+    const Model& model, const ParallelFor& parallel, VisibilityCache& cache)
+  {
+    if (!cache.Caster)
+    {
+      cache.Caster =
+        std::make_shared<const RayCaster>(model, RayCaster::Cutting::WhenMet, parallel);
+    }
+    return *cache.Caster;
+  }
   Box3 Bounds() const
   {
     const Box3& box = this->Caster.Bounds();
@@ -91,7 +102,8 @@ private:
   const Model& Source;
   const std::vector<std::string>& FaceErrors;
   const VisibleRegionOptions& Options;
-  RayCaster Caster;
+  VisibilityCache& Cache;
+  const RayCaster& Caster;
   ImagePlane Image;
   FrontMap Map;
   /// One a face: a line of its own is visible, so that it may be, though it may have no cell.
@@ -136,8 +148,15 @@ bool RegionMaker::MakeLines()
   options.Parallel = this->Options.Parallel;
   options.Progress = [&](double done) { return this->Report(LinesDone * done); };
   this->Out.Lines = MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options,
-    this->Image, this->Options.Regions || this->Options.SmoothLines);
-  return !this->Out.Lines.Aborted;
+    this->Image, this->Options.Regions || this->Options.SmoothLines,
+    this->Cache.Precision == this->Options.Precision ? this->Cache.Intersections : nullptr);
+  if (this->Out.Lines.Aborted)
+  {
+    return false;
+  }
+  this->Cache.Intersections = this->Out.Lines.Intersections;
+  this->Cache.Precision = this->Options.Precision;
+  return true;
 }
 
 std::vector<LinePart> RegionMaker::PartsInView(double pixel)
@@ -482,13 +501,14 @@ VisibleRegions RegionMaker::Run()
 } // namespace
 
 VisibleRegions MakeVisibleRegions(const Model& model, const std::vector<std::string>& faceErrors,
-  const VisibleRegionOptions& options)
+  const VisibleRegionOptions& options, VisibilityCache* cache)
 {
   if (!(options.Precision > 0.0) || !std::isfinite(options.Precision))
   {
     throw Error("The precision must be positive, but is " + std::to_string(options.Precision));
   }
-  return RegionMaker(model, faceErrors, options).Run();
+  VisibilityCache own;
+  return RegionMaker(model, faceErrors, options, cache ? *cache : own).Run();
 }
 
 } // namespace nurbs

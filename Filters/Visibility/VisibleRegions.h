@@ -8,6 +8,7 @@
 
 #include "RegionLoops.h"
 
+#include <memory>
 #include <optional>
 
 namespace nurbs
@@ -75,12 +76,21 @@ struct VisibleRegions
   bool Aborted = false;
 };
 
+/// What is the same whatever the view. The first call that is given it fills it in; the next ones, with
+/// the same model and face errors, which must not have changed, are the quicker for it.
+struct VisibilityCache
+{
+  std::shared_ptr<const RayCaster> Caster;
+  std::shared_ptr<const FaceIntersections> Intersections;
+  double Precision = 0.0; ///< VisibleRegionOptions::Precision that they are for.
+};
+
 /// Makes regions and lines. `faceErrors`: one a face, why it can't be used, or "". The result does not
 /// depend on `Parallel`. Throws Error if the precision or feature angle is not positive, the view not
 /// valid (see ImagePlane), or the precision below 2e-9 of the image of the model's box or 4e-15 of the
 /// largest coordinate, the eye's included.
 VisibleRegions MakeVisibleRegions(const Model& model, const std::vector<std::string>& faceErrors,
-  const VisibleRegionOptions& options);
+  const VisibleRegionOptions& options, VisibilityCache* cache = nullptr);
 
 /// Adds the regions of faces [first, last) to a builder, in order, as faces with their own trims: parts
 /// of trim curves keep sharing edges. Returns the faces that were added. Aborted or empty: none.

@@ -19,9 +19,20 @@
 
 vtkStandardNewMacro(vtkNURBSVisibleRegions);
 
-struct vtkNURBSVisibleRegions::Work
+/// What is kept for the next view of an input that is still the same.
+struct vtkNURBSVisibleRegions::Kept
 {
   vtkNURBSModelPool Pool;
+  nurbs::VisibilityCache Cache;
+};
+
+struct vtkNURBSVisibleRegions::Work
+{
+  explicit Work(const vtkNURBSModelPool& pool)
+    : Pool(pool)
+  {}
+
+  const vtkNURBSModelPool& Pool;
   nurbs::VisibleRegionOptions Options;
   nurbs::VisibleRegions Result;
 };
@@ -69,7 +80,8 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   vtkNURBSRunWithProgress(
     this, IsQuick(pool), 0.0, 0.9, [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
-      work.Result = nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options);
+      work.Result =
+        nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options, &this->Before->Cache);
     });
 }
 
@@ -181,17 +193,22 @@ int vtkNURBSVisibleRegions::RequestData(
     vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
   const vtkNURBSParallelScope parallel;
-  Work work;
   vtkNURBSPieces pieces(request, outputs);
   try
   {
     std::string problem = this->CheckOptions();
     vtkDataObject* whole = problem.empty() ? pieces.Gather(input, problem) : input;
-    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
+    if (problem.empty() && !(this->Before && this->Before->Pool.IsUpToDate(whole)))
+    {
+      this->Before = std::make_unique<Kept>();
+      problem = this->Before->Pool.Collect(whole);
+    }
     if (!problem.empty())
     {
+      this->Before = nullptr;
       throw nurbs::Error(problem);
     }
+    Work work(this->Before->Pool);
     this->Make(work);
     if (!work.Result.Aborted && !this->GetAbortExecute())
     {
@@ -205,6 +222,7 @@ int vtkNURBSVisibleRegions::RequestData(
   }
   catch (const std::exception& problem)
   {
+    this->Before = nullptr;
     vtkErrorMacro(<< problem.what());
     this->SetErrorCode(vtkErrorCode::UserError);
     return 0;

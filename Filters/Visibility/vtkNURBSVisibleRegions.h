@@ -44,6 +44,9 @@
  * silhouettes have gaps. A view that is not valid, or an input without NURBS arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
  * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.
  *
+ * What is the same from every view (the surfaces as rays see them, the curves in which faces pierce each
+ * other) is kept for the next update, until the input or the precision changes.
+ *
  * Source: X. Ruan, H. Zhang, J. Yong, "Visible region extraction from a sequence of rational Bezier
  * surfaces", Journal of Zhejiang University SCIENCE A 7 (2006), section 4. What is done differently and
  * why is told in Documentation/Papers/ruan-2006.md.
@@ -54,6 +57,8 @@
 #define vtkNURBSVisibleRegions_h
 
 #include "vtkNURBSViewAlgorithm.h"
+
+#include <memory> // For std::unique_ptr
 
 class vtkPolyData;
 
@@ -190,11 +195,14 @@ private:
   vtkNURBSVisibleRegions(const vtkNURBSVisibleRegions&) = delete;
   void operator=(const vtkNURBSVisibleRegions&) = delete;
 
+  struct Kept;
   struct Work;
   void Make(Work& work);
   void Summarize(const Work& work);
   void FillOutputs(const Work& work, vtkDataObject* input, vtkInformationVector* outputs);
   void ClearResults();
+
+  std::unique_ptr<Kept> Before;
 
   double ViewUp[3] = { 0.0, 0.0, 1.0 };
   bool ComputeRegions = true;

@@ -43,6 +43,10 @@ add_compile_options(
   "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>"
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>")
 
+# A library's calls of its own functions are bound when it is linked: else hundreds of names are looked up
+# in all of VTK's libraries when a filter first runs, which takes longer than drawing a small model.
+add_link_options("LINKER:-Bsymbolic-functions")
+
 if (NURBS_SANITIZE)
   add_compile_options(
     "-fsanitize=${NURBS_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -5,6 +5,9 @@
 #include "PatchStitcher.h"
 #include "nurbsRayReference.h"
 
+#include <atomic>
+#include <thread>
+
 using namespace nurbs;
 using namespace reference;
 
@@ -185,6 +188,92 @@ TEST(RayModel, EdgesHoldWithinTheirTolerance)
       }
     }
   }
+}
+
+namespace
+{
+
+/// Expects the same of a caster that cuts surfaces where rays come near.
+void ExpectSameWhenMet(const Model& model, int count, reference::Random& random)
+{
+  const RayCaster all(model);
+  const RayCaster some(model, RayCaster::Cutting::WhenMet);
+  const double size = all.Bounds().diagonal().norm();
+  // A box around no more than what is left of faces, where the other one may know it less well.
+  const Vec3 slack = Vec3::Constant(1e-6 * size);
+  EXPECT_TRUE(Box3(all.Bounds().min() - slack, all.Bounds().max() + slack).contains(some.Bounds()));
+  int hit = 0;
+  std::vector<RayHit> hits, expected;
+  for (int i = 0; i < count; ++i)
+  {
+    const Ray ray = LineThrough(RandomPoint(all.Bounds(), random), RandomDirection(random), size);
+    RayHit near, nearExpected;
+    ASSERT_EQ(some.Nearest(ray, near), all.Nearest(ray, nearExpected));
+    EXPECT_EQ(near.Face, nearExpected.Face);
+    EXPECT_LT((near.Point - nearExpected.Point).norm(), 1e-12 * size);
+    some.All(ray, hits);
+    all.All(ray, expected);
+    ASSERT_EQ(hits.size(), expected.size());
+    for (std::size_t k = 0; k < hits.size(); ++k)
+    {
+      EXPECT_EQ(hits[k].Face, expected[k].Face);
+      EXPECT_TRUE(some.Bounds().contains(hits[k].Point));
+      EXPECT_LT((hits[k].Point - expected[k].Point).norm(), 1e-12 * size);
+    }
+    hit += hits.empty() ? 0 : 1;
+  }
+  EXPECT_GT(hit, count / 10);
+}
+
+} // namespace
+
+TEST(RayModel, CutsWhereRaysComeNear)
+{
+  reference::Random random(21);
+  const Shape torus({ reference::Torus(1.0, 0.35), reference::Sphere(0.5) });
+  ExpectSameWhenMet(torus.Content, 1000, random);
+  for (const double tolerance : { 1e-3, 0.0 })
+  {
+    // Parts of surfaces, with a gap, and a disc of a torus.
+    ModelBuilder builder;
+    const std::int64_t edge = builder.AddUnknownEdge(tolerance, -1, -1);
+    AddTrimmedSquare(builder, 0.0, 0.999, -1, edge);
+    AddTrimmedSquare(builder, 1.0, 2.0, edge, -1);
+    builder.BeginFace(torus.Surfaces[0].View(), FaceAttributes());
+    builder.BeginLoop();
+    builder.AddTrimCurve(TrimCircle(Vec2(0.45, 0.55), 0.2).View(), -1, false);
+    const AssembledModel model = AssembleModel(builder.Arrays());
+    ASSERT_TRUE(model.Problems.empty());
+    ExpectSameWhenMet(model.Model, 4000, random);
+  }
+}
+
+TEST(RayModel, CutsForManyThreads)
+{
+  const Shape shape({ reference::Torus(1.0, 0.35) });
+  const RayCaster all(shape.Content);
+  const RayCaster some(shape.Content, RayCaster::Cutting::WhenMet);
+  std::vector<std::thread> threads;
+  std::atomic<int> different{ 0 };
+  for (int t = 0; t < 4; ++t)
+  {
+    threads.emplace_back([&]() {
+      reference::Random random(22);
+      for (int i = 0; i < 1000; ++i)
+      {
+        const Ray ray =
+          LineThrough(RandomPoint(all.Bounds(), random), RandomDirection(random), 3.0);
+        RayHit a, b;
+        const bool isHit = all.Nearest(ray, a);
+        different += some.Nearest(ray, b) != isHit || (isHit && std::abs(a.T - b.T) > 1e-12);
+      }
+    });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(different, 0);
 }
 
 TEST(RayModel, BadRaysThrow)

@@ -422,6 +422,51 @@ TEST(NURBSVisibleRegions, AnotherViewIsAnotherResult)
   EXPECT_NEAR(filter->GetVisibleArea(), PI, 1e-6);
 }
 
+TEST(NURBSVisibleRegions, WhatIsKeptForTheNextViewChangesNothing)
+{
+  auto grid = Shape(vtkNURBSShapeSource::TORUS);
+  const auto expectAsNew = [&](vtkNURBSVisibleRegions* kept) {
+    kept->Update();
+    vtkNew<vtkNURBSVisibleRegions> fresh;
+    fresh->SetInputData(grid);
+    fresh->SetDirection(kept->GetDirection());
+    fresh->SetPrecision(kept->GetPrecision());
+    fresh->Update();
+    vtkPoints* const a = kept->GetLines()->GetPoints();
+    vtkPoints* const b = fresh->GetLines()->GetPoints();
+    ASSERT_GT(a->GetNumberOfPoints(), 10);
+    ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+    for (vtkIdType k = 0; k < a->GetNumberOfPoints(); ++k)
+    {
+      double p[3], q[3];
+      a->GetPoint(k, p);
+      b->GetPoint(k, q);
+      ASSERT_EQ(vtkMath::Distance2BetweenPoints(p, q), 0.0);
+    }
+    EXPECT_EQ(kept->GetVisibleArea(), fresh->GetVisibleArea());
+    EXPECT_EQ(kept->GetNumberOfCells(), fresh->GetNumberOfCells());
+  };
+  vtkNew<vtkNURBSVisibleRegions> kept;
+  kept->SetInputData(grid);
+  kept->SetDirection(3, 1, 1);
+  expectAsNew(kept);
+  kept->SetDirection(-1, 2, 0.5);
+  expectAsNew(kept);
+  const double area = kept->GetVisibleArea();
+  kept->SetPrecision(1e-3);
+  expectAsNew(kept);
+  // A changed model is another one.
+  for (vtkIdType k = 0; k < grid->GetNumberOfPoints(); ++k)
+  {
+    double p[3];
+    grid->GetPoint(k, p);
+    grid->GetPoints()->SetPoint(k, 2.0 * p[0], 2.0 * p[1], 2.0 * p[2]);
+  }
+  grid->GetPoints()->Modified();
+  expectAsNew(kept);
+  EXPECT_NEAR(kept->GetVisibleArea() / area, 4.0, 0.05);
+}
+
 TEST(NURBSVisibleRegions, PrecisionIsRelativeOrAbsolute)
 {
   vtkNew<vtkNURBSVisibleRegions> relative;
