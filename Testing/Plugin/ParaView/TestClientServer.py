@@ -89,7 +89,6 @@ try:
     assert not selected("remote-unselected.png").any()
     simple.SelectSurfaceCells(Rectangle=middle, View=view)
     assert (selected("remote-again.png") != here).sum() < 20
-    faces = 0
     for name in ("all-there", "all-here"):
         view.RemoteRenderThreshold = 0.0 if name == "all-there" else 1000.0
         simple.SelectSurfaceCells(Rectangle=everywhere, View=view)
