@@ -16,6 +16,7 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace names = vtkNURBSModelNames;
@@ -132,7 +133,9 @@ int vtkNURBSFromBezierCells::RequestData(
   nurbs::ModelBuilder builder;
   nurbs::PatchStitcher stitcher(builder, 1e-12 * input->GetLength());
   vtkNew<vtkIdTypeArray> origin;
-  std::string skipped;
+  constexpr vtkIdType MostTold = 5;
+  std::string told;
+  vtkIdType skipped = 0;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells() && !this->GetAbortExecute(); ++cell)
   {
     nurbs::Surface surface;
@@ -142,14 +145,16 @@ int vtkNURBSFromBezierCells::RequestData(
       stitcher.AddFace(surface, nurbs::FaceAttributes());
       origin->InsertNextValue(cell);
     }
-    else
+    else if (++skipped <= MostTold)
     {
-      skipped += "\ncell " + std::to_string(cell) + ": " + reason;
+      told += "\n  cell " + std::to_string(cell) + ": " + reason;
     }
   }
-  if (!skipped.empty())
+  if (skipped > 0)
   {
-    vtkWarningMacro(<< "Left out:" << skipped);
+    const vtkIdType more = std::max<vtkIdType>(0, skipped - MostTold);
+    vtkWarningMacro(<< skipped << " of " << input->GetNumberOfCells() << " cells are left out:"
+                    << told << (more > 0 ? "\n  and " + std::to_string(more) + " more" : ""));
   }
   const std::string unit = vtkNURBSModel::GetLengthUnit(input);
   builder.LengthUnit = unit.empty() ? builder.LengthUnit : unit;

@@ -213,18 +213,21 @@ bool ShownLines::IsBare(Looks& looks) const
   const FrontHit& beside = this->Beside(looks);
   // Of a surface that turns away with a radius up to the image's size.
   const double reach = std::sqrt(2.0 * SideReach * this->Map.Pixel * this->Size);
-  if (beside.Face < 0 ||
-    std::abs(this->Image.Depth(beside.Point) - this->Image.Depth(point)) > reach)
+  const double behind =
+    beside.Face < 0 ? reach : this->Image.Depth(beside.Point) - this->Image.Depth(point);
+  // A look within a pixel of the line may miss its surface, where the line is not exact.
+  const bool isMissed = behind >= reach &&
+    (this->Map.Beside(looks.Step.Edge, looks.Side) - this->Image.Project(point)).norm() <=
+      this->Map.Pixel;
+  if (!isMissed && (std::abs(behind) > reach || !this->IsNeighbour(line, beside.Face)))
   {
     return false;
   }
-  if (!this->IsNeighbour(line, beside.Face))
-  {
-    return false;
-  }
+  // Where no surface beside the line is known to be its own, only what is at the same place is.
+  const double depth = isMissed || this->Map.Cells[cell].Face < 0 ? 1.0 : BareDepth;
   const FrontHit& front = this->There(looks);
   return front.Face < 0 ||
-    this->Image.Depth(point) - this->Image.Depth(front.Point) <= BareDepth * this->Map.Pixel;
+    this->Image.Depth(point) - this->Image.Depth(front.Point) <= depth * this->Map.Pixel;
 }
 
 // True if no face of an edge is seen, because all are edge-on.
@@ -279,7 +282,7 @@ bool ShownLines::FindOf(const ViewLine& line, const std::vector<LineStep>& steps
   Looks looks{ line, best, this->Walk.Side(best, lineSide), {}, {}, {} };
   const std::int64_t face = this->Map.Cells[this->Walk.Cell(best, lineSide)].Face;
   const bool shows = face >= 0 && IsOfFace(this->Lines, line, face) && this->Shows(looks);
-  const bool isBare = !shows && face >= 0 && this->IsBare(looks);
+  const bool isBare = !shows && this->IsBare(looks);
   for (std::size_t k = first; k < last; ++k)
   {
     LineSource& source = this->Map.Sources[steps[k].Source];

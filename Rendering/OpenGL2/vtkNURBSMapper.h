@@ -148,6 +148,11 @@ public:
   vtkScalarsToColors* GetLookTable();
   ///@}
 
+  /**
+   * What colours curvatures and draft angles, for a legend: LookTable, or a table of the default.
+   */
+  vtkSmartPointer<vtkScalarsToColors> GetLookColors();
+
   ///@{
   /**
    * The length that takes the place of the bounds' diagonal there: that of the whole model, if other

@@ -223,25 +223,31 @@ void vtkNURBSMapper::SetSurfaceParameters(
   }
 }
 
+vtkSmartPointer<vtkScalarsToColors> vtkNURBSMapper::GetLookColors()
+{
+  if (this->LookTable)
+  {
+    return this->LookTable;
+  }
+  this->UpdateModel();
+  const double diagonal =
+    this->LookLength > 0.0 ? this->LookLength : this->Content->Model.GetBounds().diagonal().norm();
+  const double limit = this->Look == DRAFT_ANGLE ? 90.0
+    : this->Look == GAUSSIAN_CURVATURE           ? 100.0 / (diagonal * diagonal)
+                                                 : 10.0 / diagonal;
+  auto table = vtkSmartPointer<vtkColorTransferFunction>::New();
+  table->SetColorSpaceToDiverging();
+  table->AddRGBPoint(-limit, 0.230, 0.299, 0.754);
+  table->AddRGBPoint(limit, 0.706, 0.016, 0.150);
+  return table;
+}
+
 void vtkNURBSMapper::SetLookParameters(
   vtkOpenGLRenderWindow* window, vtkShaderProgram* program, vtkActor* actor)
 {
   constexpr int Colors = 256;
   Internals& c = *this->Content;
-  vtkScalarsToColors* table = this->LookTable;
-  vtkNew<vtkColorTransferFunction> standard;
-  if (!table)
-  {
-    const double diagonal =
-      this->LookLength > 0.0 ? this->LookLength : c.Model.GetBounds().diagonal().norm();
-    const double limit = this->Look == DRAFT_ANGLE ? 90.0
-      : this->Look == GAUSSIAN_CURVATURE           ? 100.0 / (diagonal * diagonal)
-                                                   : 10.0 / diagonal;
-    standard->SetColorSpaceToDiverging();
-    standard->AddRGBPoint(-limit, 0.230, 0.299, 0.754);
-    standard->AddRGBPoint(limit, 0.706, 0.016, 0.150);
-    table = standard;
-  }
+  const vtkSmartPointer<vtkScalarsToColors> table = this->GetLookColors();
   const double* range = table->GetRange();
   if (program->IsUniformUsed("nurbsLookTable"))
   {

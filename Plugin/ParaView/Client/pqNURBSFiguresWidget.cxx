@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqNURBSFiguresWidget.h"
 
+#include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqProxy.h"
+#include "pqServerManagerModel.h"
 #include "vtkCommand.h"
 #include "vtkSMDocumentation.h"
 #include "vtkSMProperty.h"
@@ -28,7 +31,13 @@ QString textOf(double value)
 // Whether a value other than 0 is something to look at.
 bool isTrouble(const QString& name)
 {
-  return name.contains("Failed") || name.contains("Capped") || name.contains("Refused");
+  return name.contains("Failed") || name.contains("Capped") || name.contains("Refused") ||
+    name.contains("InexactFaces");
+}
+
+pqProxy* itemOf(vtkSMProxy* proxy)
+{
+  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqProxy*>(proxy);
 }
 
 } // namespace
@@ -52,11 +61,27 @@ pqNURBSFiguresWidget::pqNURBSFiguresWidget(
     this->Values.append(value);
   }
   pqCoreUtilities::connect(proxy, vtkCommand::UpdateDataEvent, this, SLOT(refresh()));
+  // The panel is made before the filter is marked as one that waits for its first Apply.
+  if (pqProxy* item = itemOf(proxy))
+  {
+    QObject::connect(
+      item, SIGNAL(modifiedStateChanged(pqServerManagerModelItem*)), this, SLOT(refresh()));
+  }
   this->refresh();
 }
 
 void pqNURBSFiguresWidget::refresh()
 {
+  pqProxy* item = itemOf(this->proxy());
+  if (item && item->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    // Zeros would be taken for what was found.
+    for (QLabel* value : this->Values)
+    {
+      value->setText("-");
+    }
+    return;
+  }
   this->proxy()->UpdatePropertyInformation();
   for (unsigned int i = 0; i < this->propertyGroup()->GetNumberOfProperties(); ++i)
   {

@@ -2,7 +2,10 @@
 #include "pqNURBSViewWidget.h"
 
 #include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
+#include "pqProxy.h"
 #include "pqRenderView.h"
+#include "pqServerManagerModel.h"
 #include "vtkCamera.h"
 #include "vtkSMDocumentation.h"
 #include "vtkSMProperty.h"
@@ -40,6 +43,33 @@ pqNURBSViewWidget::pqNURBSViewWidget(vtkSMProxy* proxy, vtkSMProperty* property,
   layout->addWidget(button);
   this->setShowLabel(false);
   QObject::connect(button, SIGNAL(clicked()), this, SLOT(takeView()));
+  if (auto* item =
+        pqApplicationCore::instance()->getServerManagerModel()->findItem<pqProxy*>(proxy))
+  {
+    QObject::connect(item, SIGNAL(modifiedStateChanged(pqServerManagerModelItem*)), this,
+      SLOT(takeFirstView(pqServerManagerModelItem*)));
+  }
+}
+
+// Of a filter that waits for its first Apply: the panel is made before it is marked as such a one.
+void pqNURBSViewWidget::takeFirstView(pqServerManagerModelItem* item)
+{
+  auto* source = qobject_cast<pqProxy*>(item);
+  if (!this->HasTaken && source && source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    this->takeView();
+  }
+}
+
+// Of a camera as it was made; what the panel tells about it shows only where it is used.
+void pqNURBSViewWidget::showEvent(QShowEvent* event)
+{
+  this->pqPropertyWidget::showEvent(event);
+  vtkSMProperty* position = this->proxy()->GetProperty("CameraPosition");
+  if (!this->HasTaken && position && position->IsValueDefault())
+  {
+    this->takeView();
+  }
 }
 
 void pqNURBSViewWidget::takeView()
@@ -49,6 +79,7 @@ void pqNURBSViewWidget::takeView()
   {
     return;
   }
+  this->HasTaken = true;
   vtkCamera* camera = view->getRenderViewProxy()->GetActiveCamera();
   double direction[3];
   camera->GetDirectionOfProjection(direction);

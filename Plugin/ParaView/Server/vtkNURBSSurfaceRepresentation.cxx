@@ -6,6 +6,7 @@
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataArray.h"
+#include "vtkDataLabelRepresentation.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkIdTypeArray.h"
@@ -13,6 +14,8 @@
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNURBSFaceMarks.h"
+#include "vtkNURBSLookLegend.h"
 #include "vtkNURBSMapper.h"
 #include "vtkNURBSModelBlocks.h"
 #include "vtkNew.h"
@@ -25,9 +28,12 @@
 #include "vtkPolyData.h"
 #include "vtkProcessModule.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSelectionRepresentation.h"
+#include "vtkTextProperty.h"
 #include "vtkView.h"
 
 #include <algorithm>
@@ -132,6 +138,15 @@ vtkAlgorithmOutput* OriginOf(vtkAlgorithm* consumer)
   return origin;
 }
 
+// Tells what has no question of its own.
+struct Labels : vtkDataLabelRepresentation
+{
+  static bool ArePointsShown(vtkDataLabelRepresentation* labels)
+  {
+    return labels->*(&Labels::PointLabelVisibility) != 0;
+  }
+};
+
 // The cells of a selection as something that ParaView delivers: a point (flat index of the block, or
 // -1; index of the cell; 0) each. Selected points are no faces.
 vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
@@ -210,13 +225,17 @@ vtkNURBSSurfaceRepresentation::vtkNURBSSurfaceRepresentation()
   mapper->SetCompositeDataDisplayAttributes(attributes);
   this->Actor->SetMapper(mapper);
   this->SuppressLOD = true;
+  this->Legend = vtkNURBSLookLegend::Make();
 }
+
+vtkNURBSSurfaceRepresentation::~vtkNURBSSurfaceRepresentation() = default;
 
 void vtkNURBSSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseModelColors: " << this->UseModelColors << "\n";
   os << indent << "FaceEdges: " << this->FaceEdges << "\n";
+  os << indent << "ShowLegend: " << this->ShowLegend << "\n";
   os << indent << "UseLookRange: " << this->UseLookRange << "\n";
   os << indent << "LookRange: " << this->LookRange[0] << " " << this->LookRange[1] << "\n";
 }
@@ -242,11 +261,16 @@ int vtkNURBSSurfaceRepresentation::ProcessViewRequest(
     }
     this->Actor->SetEnableLOD(0);
     this->UpdateColoringParameters();
+    vtkNURBSLookLegend::Update(this->Legend, this->GetNURBSMapper(), this->ShowLegend);
     return 1;
   }
-  if (request == vtkPVView::REQUEST_UPDATE() && this->IsApart())
+  if (request == vtkPVView::REQUEST_UPDATE())
   {
-    this->RenewSelection();
+    this->PutLabelsOnFaces();
+    if (this->IsApart())
+    {
+      this->RenewSelection();
+    }
   }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
@@ -343,6 +367,36 @@ vtkSmartPointer<vtkSelection> vtkNURBSSurfaceRepresentation::FindSelectedFaces()
     }
   }
   return selection;
+}
+
+// Labels of what is selected of our input get a filter between them and the selection.
+void vtkNURBSSurfaceRepresentation::PutLabelsOnFaces()
+{
+  vtkView* view = this->GetView();
+  vtkAlgorithmOutput* input = OriginOf(this);
+  for (int i = 0; input && view && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    auto* labels = vtkDataLabelRepresentation::SafeDownCast(view->GetRepresentation(i));
+    if (!labels || labels->GetNumberOfInputConnections(0) == 0)
+    {
+      continue;
+    }
+    vtkAlgorithmOutput* source = labels->GetInputConnection(0, 0);
+    vtkSmartPointer<vtkNURBSFaceMarks> marks =
+      vtkNURBSFaceMarks::SafeDownCast(source->GetProducer());
+    auto* extraction = vtkPVExtractSelection::SafeDownCast(OriginOf(labels)->GetProducer());
+    if (!marks && extraction && OriginOf(extraction) == input)
+    {
+      marks = vtkSmartPointer<vtkNURBSFaceMarks>::New();
+      marks->SetInputConnection(source);
+      labels->SetInputConnection(marks->GetOutputPort());
+    }
+    if (marks && marks->GetKeepModels() != Labels::ArePointsShown(labels))
+    {
+      marks->SetKeepModels(Labels::ArePointsShown(labels));
+      labels->MarkModified();
+    }
+  }
 }
 
 void vtkNURBSSurfaceRepresentation::ShowSelectedFaces()
@@ -464,6 +518,42 @@ void vtkNURBSSurfaceRepresentation::UpdateLookTable()
   table->AddRGBPoint(0.5 * (least + largest), 0.87, 0.87, 0.87);
   table->AddRGBPoint(largest, 0.71, 0.02, 0.15);
   this->GetNURBSMapper()->SetLookTable(table);
+}
+
+bool vtkNURBSSurfaceRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (renderView)
+  {
+    renderView->GetNonCompositedRenderer()->AddActor(this->Legend);
+  }
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkNURBSSurfaceRepresentation::RemoveFromView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (renderView)
+  {
+    renderView->GetNonCompositedRenderer()->RemoveActor(this->Legend);
+  }
+  return this->Superclass::RemoveFromView(view);
+}
+
+// Representations that do not show are not asked to render.
+void vtkNURBSSurfaceRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  if (!visible)
+  {
+    this->Legend->SetVisibility(0);
+  }
+}
+
+void vtkNURBSSurfaceRepresentation::SetLegendColor(double red, double green, double blue)
+{
+  this->Legend->GetTitleTextProperty()->SetColor(red, green, blue);
+  this->Legend->GetLabelTextProperty()->SetColor(red, green, blue);
 }
 
 void vtkNURBSSurfaceRepresentation::SetPixelError(double pixels)

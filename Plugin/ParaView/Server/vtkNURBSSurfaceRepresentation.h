@@ -6,8 +6,9 @@
  * The models travel to where they are drawn as they are: control points, knots and trims. Colours by
  * cell arrays, opacity, material, transforms, and the visibility, colours and opacities of blocks work
  * as in vtkGeometryRepresentation. A selected cell is a CAD face, and is shown in the selection's
- * colour. While the user moves the camera the mapper itself keeps to InteractiveFrameRate; ParaView's
- * own levels of detail are not asked for.
+ * colour; its label stands on it, unless control points have labels, too (see vtkNURBSFaceMarks).
+ * While the user moves the camera the mapper itself keeps to InteractiveFrameRate; ParaView's own
+ * levels of detail are not asked for.
  *
  * Where a client draws a server's models, which faces are selected travels as a second piece beside
  * them. ParaView delivers all pieces of a representation or none: models are sent again with it.
@@ -19,11 +20,12 @@
 
 #include "vtkGeometryRepresentation.h"
 #include "vtkNURBSParaViewServerModule.h" // For export macro
-#include "vtkSmartPointer.h"              // For the selection
+#include "vtkSmartPointer.h"              // For the selection and the legend
 
 #include <vector> // For the selections
 
 class vtkNURBSMapper;
+class vtkScalarBarActor;
 class vtkSelection;
 
 class VTKNURBSPARAVIEWSERVER_EXPORT vtkNURBSSurfaceRepresentation : public vtkGeometryRepresentation
@@ -65,6 +67,17 @@ public:
 
   ///@{
   /**
+   * A bar with the colours of curvatures and draft angles, where surfaces show these (see SetLook), at
+   * the left border of the view. Default on, white.
+   */
+  vtkSetMacro(ShowLegend, bool);
+  vtkGetMacro(ShowLegend, bool);
+  vtkBooleanMacro(ShowLegend, bool);
+  void SetLegendColor(double red, double green, double blue);
+  ///@}
+
+  ///@{
+  /**
    * See vtkNURBSMapper.
    */
   void SetPixelError(double pixels);
@@ -87,14 +100,17 @@ public:
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
   void SetMapScalars(int map) override;
+  void SetVisibility(bool visible) override;
   void SetSuppressLOD(bool) override {}
   void SetArrayIdNames(const char*, const char*) override {}
   ///@}
 
 protected:
   vtkNURBSSurfaceRepresentation();
-  ~vtkNURBSSurfaceRepresentation() override = default;
+  ~vtkNURBSSurfaceRepresentation() override;
 
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
   void UpdateColoringParameters() override;
 
 private:
@@ -105,6 +121,7 @@ private:
   void SetDrawnData(vtkDataObject* delivered);
   void UpdateBlockAttributes(vtkDataObject* delivered);
   bool IsApart();
+  void PutLabelsOnFaces();
   void RenewSelection();
   vtkSmartPointer<vtkSelection> FindSelectedFaces();
   void ShowSelectedFaces();
@@ -114,6 +131,8 @@ private:
 
   bool UseModelColors = true;
   bool FaceEdges = false;
+  vtkSmartPointer<vtkScalarBarActor> Legend;
+  bool ShowLegend = true;
   bool UseLookRange = false;
   double LookRange[2] = { 0.0, 1.0 };
   bool MapScalars = true;

@@ -52,6 +52,24 @@ bool IsModel(vtkSMSourceProxy* source, unsigned int port)
   return information->GetIsModel();
 }
 
+// The width in pixels in which an output's lines show, if they are such that lie on surfaces; else 0.
+int WidthOfLines(vtkSMSourceProxy* source, unsigned int port)
+{
+  const std::string name = source->GetXMLName();
+  const bool isDrawing = name == "NURBSSilhouette" || (name == "NURBSVisibleRegions" && port == 1);
+  return isDrawing ? 2 : name == "NURBSTessellator" && port == 1 ? 1 : 0;
+}
+
+void SetIfUntouched(
+  vtkSMProxy* proxy, const char* name, const double* values, unsigned int count, vtkMTimeType since)
+{
+  vtkSMProperty* property = proxy->GetProperty(name);
+  if (property && property->GetMTime() <= since)
+  {
+    vtkSMPropertyHelper(property).Set(values, count);
+  }
+}
+
 } // namespace
 
 void vtkSMNURBSDisplayInitializationHelper::PrintSelf(ostream& os, vtkIndent indent)
@@ -73,5 +91,13 @@ void vtkSMNURBSDisplayInitializationHelper::PostInitializeProxy(
   if (std::string(type.GetAsString()) == "Surface" && IsModel(source, input.GetOutputPort()))
   {
     type.Set("NURBS Surface");
+  }
+  // Lines in the colour of surfaces could not be told from them.
+  if (const int width = WidthOfLines(source, input.GetOutputPort()))
+  {
+    const double black[3] = { 0.0, 0.0, 0.0 }, pixels = width;
+    SetIfUntouched(proxy, "AmbientColor", black, 3, started);
+    SetIfUntouched(proxy, "DiffuseColor", black, 3, started);
+    SetIfUntouched(proxy, "LineWidth", &pixels, 1, started);
   }
 }

@@ -8,6 +8,9 @@
  * the server is asked (vtkPVNURBSModelInformation). Other data, cells that were cut, and a
  * representation that was set before, such as by a user's settings, are left alone.
  *
+ * Lines that lie on surfaces (silhouettes, drawings, trim curves) show black, and those of drawings two
+ * pixels wide: in the colour of surfaces they could not be told from them.
+ *
  * A hint of UnstructuredGridRepresentation and GeometryRepresentation (representation.xml).
  */
 #ifndef vtkSMNURBSDisplayInitializationHelper_h

@@ -60,4 +60,17 @@ wavelet = simple.Wavelet()
 assert shown(wavelet) == "Outline"
 assert shown(simple.Tetrahedralize(Input=wavelet)) == "Surface"
 assert shown(simple.Sphere()) == "Surface"
+
+# Lines on surfaces show black, surfaces in their own colour.
+regions = simple.NURBSVisibleRegions(Input=teapot)
+for proxy, width in (
+    (simple.NURBSSilhouette(Input=teapot), 2.0),
+    (simple.OutputPort(regions, 1), 2.0),
+    (simple.OutputPort(regions, 0), None),
+):
+    updated(proxy)
+    display = simple.Show(proxy, view)
+    black = list(display.DiffuseColor) == list(display.AmbientColor) == [0.0, 0.0, 0.0]
+    assert black == (width is not None), (proxy, list(display.DiffuseColor))
+    assert width is None or display.LineWidth == width
 print("passed")

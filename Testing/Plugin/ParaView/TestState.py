@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A session saved as .pvsm and .py and loaded again; a trace replayed; undo."""
+"""A session saved as .pvsm and .py and loaded again, with its picture; a trace replayed."""
 from paraview import simple, smstate, smtrace
 from session import LINKRODS, load_plugin, path, size, updated
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 
 def build():
@@ -47,6 +50,15 @@ def figures():
     )
 
 
+def picture(name):
+    """The view as it is, small."""
+    simple.SaveScreenshot(path(name), simple.GetActiveView(), ImageResolution=[300, 200])
+    reader = vtkPNGReader()
+    reader.SetFileName(path(name))
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+
+
 def fresh_session():
     simple.ResetSession()
     assert not simple.GetSources()
@@ -56,6 +68,10 @@ def fresh_session():
 def checked(kind, expected):
     got = figures()
     assert got == expected, "%s: %s instead of %s" % (kind, got, expected)
+    # The trace holds the camera only as the view was made, as no person moved it.
+    if kind != "trace":
+        away = (abs(picture(kind + ".png") - seen).max(axis=1) > 16).sum()
+        assert away == 0, "%s: %d pixels are another" % (kind, away)
     print("%-6s %s" % (kind, got[0]))
 
 
@@ -67,6 +83,11 @@ expected = figures()
 print("built ", expected)
 assert expected[5] == ("NURBS Surface", "Zebra", 1, 0.25), expected
 assert expected[2] > 0 and 0 < expected[3][0] <= 2e-6
+view = simple.GetActiveView()
+view.CameraPosition = [0.02, 0.03, 0.04]
+view.ResetCamera(True)
+seen = picture("seen.png")
+assert 0.05 < (abs(seen - seen[0]).max(axis=1) > 16).mean() < 0.95
 simple.SaveState(path("plugin.pvsm"))
 with open(path("plugin.py"), "w") as file:
     file.write(smstate.get_state())
