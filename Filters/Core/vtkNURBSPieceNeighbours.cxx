@@ -9,7 +9,6 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkMultiProcessController.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -21,9 +20,6 @@ namespace
 
 using nurbs::MessageReader;
 using nurbs::MessageWriter;
-
-constexpr int MessageTag = 7181;
-constexpr vtkIdType LargestMessage = vtkIdType(1) << 30;
 
 /// A block's edge or vertex as one number.
 std::int64_t Key(unsigned int block, std::int64_t id, bool isVertex)
@@ -88,8 +84,7 @@ std::vector<std::vector<std::int64_t>> vtkNURBSPieces::FindKeys(const Raws& raws
 }
 
 // Of every process, the own cells that it must know; all of them for this one. Boxes are exchanged, too.
-std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
-  const Raws& raws, std::string& problem)
+std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(const Raws& raws)
 {
   std::vector<std::int64_t> own;
   for (const std::vector<std::int64_t>& some : this->FindKeys(raws))
@@ -126,9 +121,7 @@ std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
   }
 
   std::vector<char> message;
-  MessageWriter out(message);
-  out.Put(problem);
-  out.Put(own);
+  MessageWriter(message).Put(own);
   const std::vector<std::vector<char>> all = this->Exchange(message);
   std::unordered_map<std::int64_t, std::vector<int>> known; // Which others have an own key.
   for (const std::int64_t key : own)
@@ -137,12 +130,8 @@ std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
   }
   for (int rank = 0; rank < int(all.size()); ++rank)
   {
-    MessageReader in(all[rank]);
-    std::string said;
     std::vector<std::int64_t> keys;
-    in.Get(said);
-    in.Get(keys);
-    problem = problem.empty() ? said : problem;
+    MessageReader(all[rank]).Get(keys);
     for (std::size_t k = 0; rank != this->Rank && k < keys.size(); ++k)
     {
       const auto found = known.find(keys[k]);
@@ -153,10 +142,6 @@ std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
     }
   }
   std::vector<Choice> shared(all.size(), Choice(raws.size()));
-  if (!problem.empty())
-  {
-    return shared;
-  }
   shared[this->Rank] = this->AllCells();
   for (std::size_t g = 0; g < raws.size(); ++g)
   {
@@ -177,67 +162,6 @@ std::vector<vtkNURBSPieces::Choice> vtkNURBSPieces::FindShared(
     }
   }
   return shared;
-}
-
-// In rounds, in each of which a process talks to one other at most; the lower rank speaks first. Who has
-// nothing to say to another hears nothing from it either, as both know what they share.
-std::vector<std::vector<char>> vtkNURBSPieces::ExchangeWithEach(
-  const std::vector<std::vector<char>>& messages) const
-{
-  const int ranks = int(messages.size());
-  const int seats = ranks + ranks % 2;
-  std::vector<std::vector<char>> heard(ranks);
-  heard[this->Rank] = messages[this->Rank];
-  const auto send = [&](int to) {
-    const std::vector<char>& message = messages[to];
-    auto size = vtkIdType(message.size());
-    this->Controller->Send(&size, 1, to, MessageTag);
-    for (vtkIdType at = 0; at < size; at += LargestMessage)
-    {
-      this->Controller->Send(
-        message.data() + at, std::min(LargestMessage, size - at), to, MessageTag + 1);
-    }
-  };
-  const auto receive = [&](int from) {
-    vtkIdType size = 0;
-    this->Controller->Receive(&size, 1, from, MessageTag);
-    heard[from].resize(std::size_t(size));
-    for (vtkIdType at = 0; at < size; at += LargestMessage)
-    {
-      this->Controller->Receive(
-        heard[from].data() + at, std::min(LargestMessage, size - at), from, MessageTag + 1);
-    }
-  };
-  for (int round = 0; round < seats - 1; ++round)
-  {
-    // All but the last seat walk around; the last one meets who would meet himself.
-    const int last = seats - 1;
-    int other = (2 * round - this->Rank + 2 * last) % last;
-    const int middle = round % last;
-    if (this->Rank == last)
-    {
-      other = middle;
-    }
-    else if (this->Rank == middle)
-    {
-      other = last;
-    }
-    if (other >= ranks || messages[other].empty())
-    {
-      continue;
-    }
-    if (this->Rank < other)
-    {
-      send(other);
-      receive(other);
-    }
-    else
-    {
-      receive(other);
-      send(other);
-    }
-  }
-  return heard;
 }
 
 vtkNURBSPieces::Identity vtkNURBSPieces::GetIdentity() const
@@ -291,7 +215,7 @@ namespace
 
 /// Numbers by block of all processes, put together by `join`.
 template <typename T, typename F>
-void Join(const vtkNURBSPieces& pieces, std::map<unsigned int, T>& values, F join)
+void JoinByBlock(const vtkNURBSPieces& pieces, std::map<unsigned int, T>& values, F join)
 {
   std::vector<std::int64_t> blocks;
   std::vector<T> numbers;
@@ -325,10 +249,10 @@ void Join(const vtkNURBSPieces& pieces, std::map<unsigned int, T>& values, F joi
 
 void vtkNURBSPieces::Largest(std::map<unsigned int, double>& values) const
 {
-  Join(*this, values, [](double a, double b) { return std::max(a, b); });
+  JoinByBlock(*this, values, [](double a, double b) { return std::max(a, b); });
 }
 
 void vtkNURBSPieces::Sum(std::map<unsigned int, vtkIdType>& values) const
 {
-  Join(*this, values, [](vtkIdType a, vtkIdType b) { return a + b; });
+  JoinByBlock(*this, values, [](vtkIdType a, vtkIdType b) { return a + b; });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNURBSPieceTree.h"
 
+#include "Types.h"
 #include "vtkNURBSModelPool.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -88,10 +89,15 @@ void vtkNURBSPieceTree::Set(
         return;
       }
     }
+    throw nurbs::Error("the input has no block " + std::to_string(block) + ", as others have");
+  }
+  else if (block == 0)
+  {
+    tree->ShallowCopy(leaf);
   }
   else
   {
-    tree->ShallowCopy(leaf);
+    throw nurbs::Error("the input is no composite, as those of others are");
   }
 }
 

@@ -25,7 +25,8 @@ void Visit(vtkDataObject* tree,
 /// A tree of the same structure and assembly, with no data sets; an empty grid if it is one.
 vtkSmartPointer<vtkDataObject> NewTree(vtkDataObject* like);
 
-/// Puts a data set to its place; a tree that is a data set itself takes its content.
+/// Puts a data set to its place; a tree that is a data set itself takes its content. Throws nurbs::Error
+/// if there is no such place.
 void Set(vtkDataObject* tree, unsigned int block, unsigned int partition, vtkDataObject* leaf);
 
 /// Names of cell arrays of a gathered model: the process that a face belongs to, and the number of

@@ -10,7 +10,6 @@
 #include "vtkNURBSPieceTree.h"
 
 #include "vtkCellData.h"
-#include "vtkCommunicator.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -28,9 +27,6 @@
 
 namespace
 {
-
-/// A message of all processes together, as MPI counts in 32 bits.
-constexpr vtkIdType LargestExchange = vtkIdType(1) << 30;
 
 using nurbs::MessageReader;
 using nurbs::MessageWriter;
@@ -61,6 +57,8 @@ struct Packet
 
 } // namespace
 
+vtkInformationKeyMacro(vtkNURBSPieces, NO_INPUT, Integer);
+
 vtkNURBSPieces::vtkNURBSPieces() = default;
 
 vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* outputs)
@@ -77,6 +75,7 @@ vtkNURBSPieces::vtkNURBSPieces(vtkInformation* request, vtkInformationVector* ou
   {
     this->Controller = all;
     this->Rank = all->GetLocalProcessId();
+    this->HasInput = !request->Has(NO_INPUT());
   }
 }
 
@@ -92,6 +91,19 @@ bool vtkNURBSPieces::IsPieceAsked(vtkInformation* output, int& piece, int& piece
   return pieces > 1;
 }
 
+bool vtkNURBSPieces::HasOtherProcesses()
+{
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  return all && all->GetNumberOfProcesses() > 1;
+}
+
+bool vtkNURBSPieces::IsPiece(vtkDataObject* data)
+{
+  return data && HasOtherProcesses() &&
+    data->GetInformation()->Get(vtkDataObject::DATA_NUMBER_OF_PIECES()) ==
+    vtkMultiProcessController::GetGlobalController()->GetNumberOfProcesses();
+}
+
 void vtkNURBSPieces::FindGrids(vtkDataObject* input, std::vector<Grid>& grids) const
 {
   std::map<unsigned int, vtkIdType> cells;
@@ -105,19 +117,6 @@ void vtkNURBSPieces::FindGrids(vtkDataObject* input, std::vector<Grid>& grids) c
   });
 }
 
-vtkNURBSPieces::Raws vtkNURBSPieces::MakeRaws(const std::string& problem) const
-{
-  Raws raws;
-  for (const Grid& grid : this->Grids)
-  {
-    if (problem.empty())
-    {
-      raws.push_back(vtkNURBSModelView::GetRaw(grid.Data));
-    }
-  }
-  return raws;
-}
-
 vtkNURBSPieces::Choice vtkNURBSPieces::AllCells() const
 {
   Choice cells;
@@ -129,12 +128,10 @@ vtkNURBSPieces::Choice vtkNURBSPieces::AllCells() const
   return cells;
 }
 
-std::vector<char> vtkNURBSPieces::Pack(
-  const Raws& raws, const Choice& cells, const std::string& problem) const
+std::vector<char> vtkNURBSPieces::Pack(const Raws& raws, const Choice& cells) const
 {
   std::vector<char> message;
   MessageWriter out(message);
-  out.Put(problem);
   for (std::size_t g = 0; g < raws.size(); ++g)
   {
     if (cells[g].empty())
@@ -162,20 +159,12 @@ std::vector<char> vtkNURBSPieces::Pack(
   return message;
 }
 
-void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::string& problem)
+void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages)
 {
   std::map<unsigned int, std::vector<Packet>> blocks;
   for (std::size_t rank = 0; rank < messages.size(); ++rank)
   {
-    if (messages[rank].empty())
-    {
-      continue;
-    }
-    MessageReader in(messages[rank]);
-    std::string said;
-    in.Get(said);
-    problem = problem.empty() ? said : problem;
-    while (!in.IsDone())
+    for (MessageReader in(messages[rank]); !in.IsDone();)
     {
       Packet packet;
       std::vector<std::int64_t> head;
@@ -230,42 +219,44 @@ void vtkNURBSPieces::Merge(const std::vector<std::vector<char>>& messages, std::
   }
 }
 
-vtkDataObject* vtkNURBSPieces::Gather(vtkDataObject* input, std::string& problem, Scope scope)
+vtkDataObject* vtkNURBSPieces::Gather(vtkDataObject* input, Scope scope)
 {
   this->Input = input;
   this->FindGrids(input, this->Grids);
   std::vector<vtkNURBSModelPool::Block> blocks;
-  std::string own = vtkNURBSModelPool::Find(input, blocks);
+  const std::string problem = vtkNURBSModelPool::Find(input, blocks);
+  if (!problem.empty())
+  {
+    throw nurbs::Error(problem);
+  }
   std::set<unsigned int> seen;
   bool parted = false;
   for (const Grid& grid : this->Grids)
   {
-    parted = parted ||
-      (own.empty() && vtkNURBSModel::HasGlobalIds(grid.Data) && seen.count(grid.Block) > 0);
+    parted = parted || (vtkNURBSModel::HasGlobalIds(grid.Data) && seen.count(grid.Block) > 0);
     seen.insert(grid.Block);
   }
   if (!this->IsParallel() && !parted)
   {
-    problem = own;
     return input;
   }
   this->Whole = vtkNURBSPieceTree::NewTree(input);
-  const Raws raws = this->MakeRaws(own);
+  Raws raws;
+  for (const Grid& grid : this->Grids)
+  {
+    raws.push_back(vtkNURBSModelView::GetRaw(grid.Data));
+  }
   if (scope == ALL || !this->IsParallel())
   {
-    this->Merge(this->Exchange(this->Pack(raws, this->AllCells(), own)), problem);
+    this->Merge(this->Exchange(this->Pack(raws, this->AllCells())));
     return this->Whole;
   }
-  problem = own;
-  const std::vector<Choice> shared = this->FindShared(raws, problem);
   std::vector<std::vector<char>> messages;
-  for (const Choice& cells : shared)
+  for (const Choice& cells : this->FindShared(raws))
   {
-    const bool any = std::any_of(
-      cells.begin(), cells.end(), [](const std::vector<vtkIdType>& some) { return !some.empty(); });
-    messages.push_back(any ? this->Pack(raws, cells, std::string()) : std::vector<char>());
+    messages.push_back(this->Pack(raws, cells));
   }
-  this->Merge(this->ExchangeWithEach(messages), problem);
+  this->Merge(this->ExchangeWithEach(messages));
   return this->Whole;
 }
 
@@ -283,64 +274,10 @@ bool vtkNURBSPieces::IsUpToDate(vtkDataObject* input) const
   return changed == 0.0;
 }
 
-void vtkNURBSPieces::Largest(double* values, int count) const
-{
-  if (this->Controller)
-  {
-    const std::vector<double> own(values, values + count);
-    this->Controller->AllReduce(own.data(), values, count, vtkCommunicator::MAX_OP);
-  }
-}
-
-void vtkNURBSPieces::Sum(vtkIdType* values, int count) const
-{
-  if (this->Controller)
-  {
-    const std::vector<vtkIdType> own(values, values + count);
-    this->Controller->AllReduce(own.data(), values, count, vtkCommunicator::SUM_OP);
-  }
-}
-
 nurbs::Box3 vtkNURBSPieces::Around(const nurbs::Box3& own) const
 {
   Eigen::Matrix<double, 6, 1> extremes;
   extremes << -own.min(), own.max();
   this->Largest(extremes.data(), 6);
   return nurbs::Box3(-extremes.head<3>(), extremes.tail<3>());
-}
-
-std::vector<std::vector<char>> vtkNURBSPieces::Exchange(const std::vector<char>& own) const
-{
-  if (!this->Controller)
-  {
-    return { own };
-  }
-  const int ranks = this->Controller->GetNumberOfProcesses();
-  const auto size = vtkIdType(own.size());
-  std::vector<vtkIdType> sizes(ranks, 0);
-  this->Controller->AllGather(&size, sizes.data(), 1);
-  std::vector<std::vector<char>> all(ranks);
-  const vtkIdType step = LargestExchange / ranks;
-  const vtkIdType longest = *std::max_element(sizes.begin(), sizes.end());
-  for (vtkIdType first = 0; first < longest; first += step)
-  {
-    std::vector<vtkIdType> lengths(ranks), offsets(ranks);
-    vtkIdType sum = 0;
-    for (int r = 0; r < ranks; ++r)
-    {
-      lengths[r] = std::max(vtkIdType(0), std::min(step, sizes[r] - first));
-      offsets[r] = sum;
-      sum += lengths[r];
-    }
-    std::vector<char> part(static_cast<std::size_t>(sum));
-    const char* start = own.data() + std::min(first, size);
-    this->Controller->AllGatherV(
-      start, part.data(), lengths[this->Rank], lengths.data(), offsets.data());
-    for (int r = 0; r < ranks; ++r)
-    {
-      all[r].insert(
-        all[r].end(), part.begin() + offsets[r], part.begin() + offsets[r] + lengths[r]);
-    }
-  }
-  return all;
 }

@@ -30,7 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <numeric>
 #include <string>
 
 namespace names = vtkNURBSModelNames;
@@ -389,71 +389,71 @@ bool vtkNURBSRefinement::Refine(std::vector<Part>& parts, double spacing)
   return !this->GetAbortExecute();
 }
 
-void vtkNURBSRefinement::Summarize(const std::vector<Part>& parts)
+void vtkNURBSRefinement::Summarize(const std::vector<Part>& parts, const vtkNURBSPieces& pieces)
 {
-  std::ostringstream bad, capped;
+  std::vector<std::string> bad, capped;
   for (const Part& part : parts)
   {
     const std::string errors = part.View->DescribeFaceErrors();
-    bad << (errors.empty() ? "" : "\n") << errors;
+    if (!errors.empty())
+    {
+      bad.push_back("\n" + errors);
+    }
     for (std::size_t f = 0; f < part.Nets.size(); ++f)
     {
+      const std::string face =
+        "face " + std::to_string(vtkNURBSModel::GetFaceId(part.Grid, vtkIdType(f)));
       if (!part.Failures[f].empty())
       {
-        bad << "\nface " << vtkNURBSModel::GetFaceId(part.Grid, vtkIdType(f)) << ": "
-            << part.Failures[f];
+        bad.push_back("\n" + face + ": " + part.Failures[f]);
       }
       this->NumberOfRefinedFaces += part.Nets[f].Changed;
       if (part.Nets[f].Capped && ++this->NumberOfCappedFaces <= MaxNamedFaces)
       {
-        capped << "\n  face " << vtkNURBSModel::GetFaceId(part.Grid, vtkIdType(f));
+        capped.push_back("\n  " + face);
       }
     }
   }
-  if (!bad.str().empty())
+  vtkIdType figures[] = { this->NumberOfRefinedFaces, this->NumberOfCappedFaces };
+  pieces.Sum(figures, 2);
+  this->NumberOfRefinedFaces = figures[0];
+  this->NumberOfCappedFaces = figures[1];
+  pieces.Join(bad);
+  pieces.Join(capped);
+  const auto text = [](const std::vector<std::string>& lines) {
+    return std::accumulate(lines.begin(), lines.end(), std::string());
+  };
+  if (!bad.empty())
   {
-    vtkWarningMacro("Faces with errors are passed on as they are:" << bad.str());
+    vtkWarningMacro("Faces with errors are passed on as they are:" << text(bad));
   }
   if (this->NumberOfCappedFaces > 0)
   {
+    capped.resize(std::min(capped.size(), std::size_t(MaxNamedFaces)));
     const vtkIdType more = this->NumberOfCappedFaces - MaxNamedFaces;
     vtkWarningMacro(<< this->NumberOfCappedFaces << " faces would need more than "
                     << this->MaximumControlPoints
                     << " control points (MaximumControlPoints) and are coarser than asked for:"
-                    << capped.str()
+                    << text(capped)
                     << (more > 0 ? "\n  and " + std::to_string(more) + " more" : ""));
   }
 }
 
-int vtkNURBSRefinement::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+// False: it was aborted.
+bool vtkNURBSRefinement::Make(
+  vtkDataObject* input, const vtkNURBSPieces& pieces, vtkDataObject* output)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  this->NumberOfRefinedFaces = this->NumberOfCappedFaces = this->NumberOfControlPoints = 0;
-  std::string problem;
   if (!(this->MaximumSpacing > 0.0) || !std::isfinite(this->MaximumSpacing))
   {
-    problem = "MaximumSpacing must be positive, but is " + std::to_string(this->MaximumSpacing);
+    throw nurbs::Error(
+      "MaximumSpacing must be positive, but is " + std::to_string(this->MaximumSpacing));
   }
   auto* single = vtkUnstructuredGrid::SafeDownCast(input);
   if (single && single->GetNumberOfCells() > 0 && !vtkNURBSModel::IsModel(single))
   {
-    problem = "The input is not a NURBS model: it lacks the arrays that describe surfaces";
+    throw nurbs::Error(
+      "The input is not a NURBS model: it lacks the arrays that describe surfaces");
   }
-  const vtkNURBSPieces pieces(request, outputs);
-  // What one process can't do none does, as they would wait for it.
-  double failed = problem.empty() ? 0.0 : 1.0;
-  pieces.Largest(&failed, 1);
-  if (failed > 0.0)
-  {
-    vtkErrorMacro(<< (problem.empty() ? "The input of another process can't be refined" : problem));
-    output->Initialize();
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  const vtkNURBSParallelScope parallel;
   std::vector<Part> parts;
   for (vtkUnstructuredGrid* grid : ShareModels(input, output))
   {
@@ -461,10 +461,9 @@ int vtkNURBSRefinement::RequestData(
   }
   if (!this->Refine(parts, this->AbsoluteSpacing(parts, pieces)))
   {
-    parts.clear();
-    output->Initialize();
+    return false;
   }
-  this->Summarize(parts);
+  this->Summarize(parts, pieces);
   for (Part& part : parts)
   {
     if (std::any_of(part.Nets.begin(), part.Nets.end(),
@@ -475,14 +474,35 @@ int vtkNURBSRefinement::RequestData(
     this->NumberOfControlPoints += part.Grid->GetNumberOfPoints();
     part.Nets.clear();
   }
-  vtkIdType figures[] = { this->NumberOfRefinedFaces, this->NumberOfCappedFaces,
-    this->NumberOfControlPoints };
-  pieces.Sum(figures, 3);
-  this->NumberOfRefinedFaces = figures[0];
-  this->NumberOfCappedFaces = figures[1];
-  this->NumberOfControlPoints = figures[2];
+  pieces.Sum(&this->NumberOfControlPoints, 1);
+  return true;
+}
+
+int vtkNURBSRefinement::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  this->NumberOfRefinedFaces = this->NumberOfCappedFaces = this->NumberOfControlPoints = 0;
+  const vtkNURBSParallelScope parallel;
+  const vtkNURBSPieces pieces(request, outputs);
+  std::string problem;
+  const auto outcome = pieces.Run([&]() { return this->Make(input, pieces, output); }, problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
   this->UpdateProgress(1.0);
-  return 1;
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    return 1;
+  }
+  output->Initialize();
+  this->NumberOfRefinedFaces = this->NumberOfCappedFaces = this->NumberOfControlPoints = 0;
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSRefinement::PrintSelf(ostream& os, vtkIndent indent)

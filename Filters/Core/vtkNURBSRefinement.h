@@ -125,7 +125,8 @@ private:
   struct Part;
   double AbsoluteSpacing(const std::vector<Part>& parts, const vtkNURBSPieces& pieces) const;
   bool Refine(std::vector<Part>& parts, double spacing);
-  void Summarize(const std::vector<Part>& parts);
+  void Summarize(const std::vector<Part>& parts, const vtkNURBSPieces& pieces);
+  bool Make(vtkDataObject* input, const vtkNURBSPieces& pieces, vtkDataObject* output);
 
   int MinimumDegree = 3;
   double MaximumSpacing = 0.05;

@@ -204,8 +204,7 @@ bool vtkNURBSControlPointEdits::Accept(const vtkEdit& edit)
   {
     return true;
   }
-  vtkDataObject* input = this->GetNumberOfInputConnections(0) > 0 ? this->EditedInput() : nullptr;
-  if (HasModel(input))
+  if (HasModel(this->EditedInput()))
   {
     this->ResolveWaiting();
     if (!this->Resolve(edit))
@@ -488,27 +487,33 @@ void vtkNURBSControlPointEdits::Fill(
   vtkErrorMacro("Edits left out: block " << block << " has no control point " << text.str());
 }
 
+// What edits are checked against; null: it is not there yet. A piece of a model says nothing of the points
+// of the whole, which comes with the update that all processes make.
 vtkDataObject* vtkNURBSControlPointEdits::EditedInput()
 {
-  return this->Internals->Whole ? this->Internals->Whole : this->GetInput();
+  if (this->Internals->Whole)
+  {
+    return this->Internals->Whole;
+  }
+  vtkDataObject* input = this->GetNumberOfInputConnections(0) > 0 ? this->GetInput() : nullptr;
+  return vtkNURBSPieces::IsPiece(input) ? nullptr : input;
 }
 
 // Points are numbered over the models of all processes, and edits are checked against them.
-std::string vtkNURBSControlPointEdits::Gather(
-  vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs)
+void vtkNURBSControlPointEdits::Gather(vtkDataObject* input, std::unique_ptr<vtkNURBSPieces> pieces)
 {
   vtkInternals& self = *this->Internals;
-  auto pieces = std::make_unique<vtkNURBSPieces>(request, outputs);
   const bool same = self.Pieces && self.Pieces->IsParallel() == pieces->IsParallel();
   if (same && pieces->IsParallel() && self.Pieces->IsUpToDate(input))
   {
-    return std::string();
+    return;
   }
   self.Pieces = std::move(pieces);
-  std::string problem;
-  vtkDataObject* whole = self.Pieces->Gather(input, problem);
-  self.Whole = self.Pieces->IsParallel() ? whole : nullptr;
-  return self.Whole ? problem : std::string();
+  self.Whole = nullptr;
+  if (self.Pieces->IsParallel())
+  {
+    self.Whole = self.Pieces->Gather(input);
+  }
 }
 
 int vtkNURBSControlPointEdits::RequestData(
@@ -516,23 +521,32 @@ int vtkNURBSControlPointEdits::RequestData(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
-  const std::string problem = this->Gather(input, request, outputs);
-  if (!problem.empty())
+  vtkInternals& self = *this->Internals;
+  const vtkNURBSPieces pieces(request, outputs);
+  std::string problem;
+  const auto outcome = pieces.Run(
+    [&]() {
+      this->Gather(input, std::make_unique<vtkNURBSPieces>(request, outputs));
+      this->BeforeEdits();
+      this->Edit(self.Whole ? self.Whole : input, output);
+      if (self.Whole)
+      {
+        self.Pieces->Keep(output);
+      }
+      return true;
+    },
+    problem);
+  if (outcome != vtkNURBSPieces::DONE)
   {
+    self.Pieces = nullptr;
+    self.Whole = nullptr;
     output->ShallowCopy(input);
     vtkErrorMacro(<< problem);
-    return 1;
   }
-  this->BeforeEdits();
-  const int done = this->Edit(this->Internals->Whole ? this->Internals->Whole : input, output);
-  if (this->Internals->Whole)
-  {
-    this->Internals->Pieces->Keep(output);
-  }
-  return done;
+  return 1;
 }
 
-int vtkNURBSControlPointEdits::Edit(vtkDataObject* input, vtkDataObject* output)
+void vtkNURBSControlPointEdits::Edit(vtkDataObject* input, vtkDataObject* output)
 {
   vtkInternals& self = *this->Internals;
   this->ResolveWaiting();
@@ -552,12 +566,12 @@ int vtkNURBSControlPointEdits::Edit(vtkDataObject* input, vtkDataObject* output)
       {
         vtkErrorMacro("The input is no NURBS model");
       }
-      return 1;
+      return;
     }
     vtkNURBSEditedModel& model = self.Models[0];
     model.SetInput(AsModel(input));
     this->Fill(model, 0, vtkUnstructuredGrid::SafeDownCast(output));
-    return 1;
+    return;
   }
   output->ShallowCopy(input);
   vtkSmartPointer<vtkCompositeDataIterator> at;
@@ -581,7 +595,6 @@ int vtkNURBSControlPointEdits::Edit(vtkDataObject* input, vtkDataObject* output)
     }
     to->SetDataSet(at, model.Output);
   }
-  return 1;
 }
 
 void vtkNURBSControlPointEdits::PrintSelf(ostream& os, vtkIndent indent)

@@ -24,7 +24,8 @@
  * Errors: an edit of a point that does not exist, to a place that is not finite, or to a weight
  * that is not positive and finite is refused as a whole: vtkErrorMacro names the control point, the
  * cells that use it and the reason, the method returns false, and all stays as it was. That needs
- * the input's data. Edits made before it has any are kept and checked in the next update. Edits of
+ * the input's data. Edits made before it has any are kept and checked in the next update, as are those
+ * made before the first update that several processes make of a model's pieces. Edits of
  * points that another input does not have are reported when it comes, and left out.
  *
  * @sa vtkNURBSControlPointWidget
@@ -40,6 +41,7 @@
 
 class vtkIdTypeArray;
 class vtkNURBSEditedModel;
+class vtkNURBSPieces;
 class vtkUnstructuredGrid;
 
 class VTKNURBSFILTERSDEFORMATION_EXPORT vtkNURBSControlPointEdits : public vtkPassInputTypeAlgorithm
@@ -184,8 +186,8 @@ private:
 
   bool Accept(const vtkEdit& edit);
   vtkDataObject* EditedInput();
-  std::string Gather(vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs);
-  int Edit(vtkDataObject* input, vtkDataObject* output);
+  void Gather(vtkDataObject* input, std::unique_ptr<vtkNURBSPieces> pieces);
+  void Edit(vtkDataObject* input, vtkDataObject* output);
   bool Resolve(const vtkEdit& edit);
   void ResolveWaiting();
   void Fill(vtkNURBSEditedModel& model, unsigned int block, vtkUnstructuredGrid* output);

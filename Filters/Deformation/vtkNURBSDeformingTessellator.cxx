@@ -115,6 +115,16 @@ struct vtkNURBSDeformingTessellator::Frame
   std::ostringstream FaceErrors;
   int BadFaces = 0;
   std::vector<double> LookSeconds; ///< What it took to see whether structures are the same.
+
+  std::string ProblemText() const
+  {
+    std::string text;
+    for (const std::string& problem : this->Problems)
+    {
+      text += "\n  " + problem;
+    }
+    return text;
+  }
 };
 
 void vtkNURBSDeformingTessellator::Leaf::SetViewer(const Frame& frame)
@@ -161,22 +171,17 @@ int vtkNURBSDeformingTessellator::RequestDataObject(
 }
 
 // Finds the models and what the options ask for. Meshes that were made with others are forgotten.
-bool vtkNURBSDeformingTessellator::MakeFrame(vtkDataObject* input, Frame& frame)
+void vtkNURBSDeformingTessellator::MakeFrame(vtkDataObject* input, Frame& frame)
 {
   if (this->ToleranceMode == ABSOLUTE &&
     (!(this->AbsoluteTolerance > 0.0) || !std::isfinite(this->AbsoluteTolerance)))
   {
-    vtkErrorMacro("AbsoluteTolerance must be positive, but is " << this->AbsoluteTolerance);
-    return false;
+    std::ostringstream text;
+    text << "AbsoluteTolerance must be positive, but is " << this->AbsoluteTolerance;
+    throw nurbs::Error(text.str());
   }
-  std::string problem;
-  frame.Input = frame.Pieces.Gather(input, problem);
-  problem = problem.empty() ? vtkNURBSModelPool::Find(frame.Input, frame.Blocks) : problem;
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem);
-    return false;
-  }
+  frame.Input = frame.Pieces.Gather(input);
+  vtkNURBSPieces::ThrowIf(vtkNURBSModelPool::Find(frame.Input, frame.Blocks));
   const std::vector<double> with = { double(this->ToleranceMode),
     this->ToleranceMode == ABSOLUTE ? this->AbsoluteTolerance : this->Tolerance, this->Hysteresis,
     double(this->ResolutionRefinement), double(this->PatchSubdivisions),
@@ -205,7 +210,6 @@ bool vtkNURBSDeformingTessellator::MakeFrame(vtkDataObject* input, Frame& frame)
     frame.Viewer.SightAngle = vtkMath::RadiansFromDegrees(this->SightAngle);
     frame.Viewer.LeastImportance = this->LeastImportance;
   }
-  return true;
 }
 
 void vtkNURBSDeformingTessellator::FindNewLeaves(Frame& frame)
@@ -496,12 +500,7 @@ bool vtkNURBSDeformingTessellator::Complain(const Frame& frame)
   this->ToldCrossing = this->CrossingFaces;
   if (!frame.Problems.empty())
   {
-    std::string text;
-    for (const std::string& problem : frame.Problems)
-    {
-      text += "\n  " + problem;
-    }
-    vtkErrorMacro("The frame is refused:" << text);
+    vtkErrorMacro("The frame is refused:" << frame.ProblemText());
   }
   return frame.Problems.empty();
 }
@@ -518,21 +517,9 @@ void vtkNURBSDeformingTessellator::ClearResults()
   this->RebuildSeconds = this->OutputSeconds = 0.0;
 }
 
-int vtkNURBSDeformingTessellator::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkNURBSDeformingTessellator::Make(vtkDataObject* input, Frame& frame, vtkDataObject* output)
 {
-  this->ClearResults();
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs);
-  const vtkNURBSParallelScope parallel;
-  Frame frame(request, outputs);
-  if (!this->MakeFrame(input, frame))
-  {
-    this->Leaves.clear();
-    this->FillOutput(input, output);
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
+  this->MakeFrame(input, frame);
   this->FindNewLeaves(frame);
   this->SetDiagonal(frame);
   for (std::size_t k = 0; k < frame.Blocks.size(); ++k)
@@ -548,11 +535,45 @@ int vtkNURBSDeformingTessellator::RequestData(
     this->UpdateLeaf(frame, k);
     this->UpdateProgress(double(k + 1) / double(frame.Blocks.size()));
   }
+  // All processes do the same work: what only some can't do is no matter of the frame.
+  const auto refused = double(frame.Problems.size());
+  double extremes[2] = { refused, -refused };
+  frame.Pieces.Largest(extremes, 2);
+  if (extremes[0] != -extremes[1])
+  {
+    vtkNURBSPieces::ThrowIf(frame.ProblemText());
+  }
   const double start = Now();
   this->FillOutput(frame.Input, output);
   frame.Pieces.Keep(output);
   this->OutputSeconds += Now() - start;
   this->Summarize();
+}
+
+int vtkNURBSDeformingTessellator::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const vtkNURBSParallelScope parallel;
+  Frame frame(request, outputs);
+  std::string problem;
+  const auto outcome = frame.Pieces.Run(
+    [&]() {
+      this->Make(input, frame, output);
+      return true;
+    },
+    problem);
+  if (outcome != vtkNURBSPieces::DONE)
+  {
+    vtkErrorMacro(<< problem);
+    this->ClearResults();
+    this->Leaves.clear();
+    this->FillOutput(input, output);
+    this->SetErrorCode(vtkErrorCode::UserError);
+    return 0;
+  }
   const bool done = this->Complain(frame);
   this->RefusedModels = vtkIdType(frame.Problems.size());
   this->SetErrorCode(done ? vtkErrorCode::NoError : vtkErrorCode::UserError);

@@ -295,7 +295,8 @@ private:
 
   struct Leaf;
   struct Frame;
-  bool MakeFrame(vtkDataObject* input, Frame& frame);
+  void MakeFrame(vtkDataObject* input, Frame& frame);
+  void Make(vtkDataObject* input, Frame& frame, vtkDataObject* output);
   void FindNewLeaves(Frame& frame);
   void SetDiagonal(const Frame& frame);
   void UpdateLeaf(Frame& frame, std::size_t k);

@@ -20,6 +20,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <string>
 
@@ -125,6 +126,34 @@ void CheckDimensions(vtkStructuredGrid* places, const int (&wanted)[3])
     throw nurbs::Error(
       "input 1 has the dimensions " + text(has) + "; the lattice has " + text(wanted));
   }
+}
+
+/// The points of the first process that has some: a lattice is for all, and may be there only.
+vtkSmartPointer<vtkPoints> PlacesOfAll(vtkPoints* own, const vtkNURBSPieces& pieces)
+{
+  if (!pieces.IsParallel())
+  {
+    return own;
+  }
+  std::vector<char> message;
+  for (vtkIdType n = 0; own && n < own->GetNumberOfPoints(); ++n)
+  {
+    double place[3];
+    own->GetPoint(n, place);
+    const auto* bytes = reinterpret_cast<const char*>(place);
+    message.insert(message.end(), bytes, bytes + sizeof place);
+  }
+  for (const std::vector<char>& heard : pieces.Exchange(message))
+  {
+    if (!heard.empty())
+    {
+      auto all = NewPoints(vtkIdType(heard.size() / (3 * sizeof(double))));
+      auto* places = vtkDoubleArray::SafeDownCast(all->GetData());
+      std::memcpy(places->GetPointer(0), heard.data(), heard.size());
+      return all;
+    }
+  }
+  return own;
 }
 
 /// Adds to the displacements what the places differ from the lattice at rest. Throws nurbs::Error
@@ -321,9 +350,17 @@ int vtkNURBSFreeFormDeformation::RequestInformation(
 }
 
 int vtkNURBSFreeFormDeformation::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const vtkNURBSPieces pieces(request, outputs);
+  if (pieces.GetRank() > 0 || (pieces.IsParallel() && this->HasFailed))
+  {
+    // The first process has the lattice. Who is asked for more than he makes would be asked again, and
+    // wait for the others, who are not.
+    static const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
+    outputs->GetInformationObject(LatticePort)->Set(Pipeline::UPDATE_EXTENT(), nothing, 6);
+  }
   vtkInformation* places = inputs[LatticePort]->GetInformationObject(0);
   if (places && places->Has(Pipeline::WHOLE_EXTENT()))
   {
@@ -354,7 +391,7 @@ nurbs::FreeFormLattice vtkNURBSFreeFormDeformation::MakeLattice(
   if (places)
   {
     CheckDimensions(vtkStructuredGrid::SafeDownCast(places), this->Dimensions);
-    AddPlaces(places->GetPoints(), "input 1", lattice, displacements);
+    AddPlaces(PlacesOfAll(places->GetPoints(), pieces), "input 1", lattice, displacements);
   }
   else if (this->Lattice)
   {
@@ -415,7 +452,6 @@ void vtkNURBSFreeFormDeformation::FillLattice(
     points->SetPoint(n, place.data());
     displacements->SetTuple(n, displacement.data());
   }
-  output->Initialize();
   output->SetDimensions(lattice.Count(0), lattice.Count(1), lattice.Count(2));
   output->SetPoints(points);
   output->GetPointData()->SetVectors(displacements);
@@ -430,30 +466,42 @@ int vtkNURBSFreeFormDeformation::RequestData(
   this->NumberOfMovedPoints = 0;
   const vtkNURBSParallelScope parallel;
   const vtkNURBSPieces pieces(request, outputs);
-  try
+  std::string problem;
+  const auto outcome = pieces.Run(
+    [&]() {
+      const Grids models = ShareModels(input, output);
+      const nurbs::FreeFormLattice lattice =
+        this->MakeLattice(models, vtkPointSet::GetData(inputs[LatticePort]), pieces);
+      this->Deform(lattice, models);
+      if (this->GetAbortExecute())
+      {
+        return false;
+      }
+      pieces.Sum(&this->NumberOfMovedPoints, 1);
+      // There is one lattice, whatever pieces of the model there are.
+      shown->Initialize();
+      if (pieces.GetRank() == 0)
+      {
+        this->FillLattice(lattice, shown);
+      }
+      return true;
+    },
+    problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  this->HasFailed = outcome != vtkNURBSPieces::DONE;
+  if (!this->HasFailed)
   {
-    const Grids models = ShareModels(input, output);
-    const nurbs::FreeFormLattice lattice =
-      this->MakeLattice(models, vtkPointSet::GetData(inputs[LatticePort]), pieces);
-    this->Deform(lattice, models);
-    pieces.Sum(&this->NumberOfMovedPoints, 1);
-    this->FillLattice(lattice, shown);
+    return 1;
   }
-  catch (const nurbs::Error& problem)
+  output->Initialize();
+  shown->Initialize();
+  if (outcome == vtkNURBSPieces::ABORTED)
   {
-    vtkErrorMacro("Free-form deformation: " << problem.what());
-    output->Initialize();
-    shown->Initialize();
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
+    return 1;
   }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  if (this->GetAbortExecute())
-  {
-    output->Initialize();
-    shown->Initialize();
-  }
-  return 1;
+  vtkErrorMacro("Free-form deformation: " << problem);
+  return 0;
 }
 
 void vtkNURBSFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)

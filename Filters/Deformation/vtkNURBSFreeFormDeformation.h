@@ -24,7 +24,8 @@
  * as modified only if a value changed, so that a mapper or tessellator downstream updates no more
  * than that. Copy it (vtkPoints::DeepCopy) to keep a frame. The input is never written to.
  *
- * Output 1: the lattice as a vtkStructuredGrid in its present places, with the point data
+ * Output 1 (of the first process, where several share the model): the lattice as a vtkStructuredGrid in
+ * its present places, with the point data
  * "Displacement" (3 doubles, the vectors) from the places at rest.
  *
  * The field data passes through, the 3D curves of edges in it too. Moved by the lattice, an edge's
@@ -220,6 +221,7 @@ private:
   std::vector<double> Displacements; ///< 3 a lattice point.
   vtkSmartPointer<vtkPoints> Lattice;
   vtkIdType NumberOfMovedPoints = 0;
+  bool HasFailed = false; ///< The last update, in some process.
 
   /// The points of the output's models, kept from update to update.
   std::vector<vtkSmartPointer<vtkPoints>> Kept;

@@ -211,8 +211,116 @@ int vtkNURBSCADReader::RequestInformation(
   return 1;
 }
 
+// What one Update works on.
+struct vtkNURBSCADReader::Work
+{
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {
+    vtkNURBSPieces::IsPieceAsked(outputs->GetInformationObject(0), this->Piece, this->PieceCount);
+  }
+  const vtkNURBSPieces Pieces;
+  int Piece = 0;
+  int PieceCount = 1;
+  nurbs::CADDocument Document;
+  std::vector<nurbs::Part> Parts;
+  std::vector<Model> Models;
+};
+
+// False: it was aborted.
+bool vtkNURBSCADReader::Load(Work& work)
+{
+  const double start = Now();
+  try
+  {
+    work.Document = nurbs::LoadCADFile(this->FileName, [this](double done) {
+      this->UpdateProgress(ParsePart * done);
+      return !this->GetAbortExecute();
+    });
+  }
+  catch (const std::exception&)
+  {
+    if (this->GetAbortExecute())
+    {
+      return false;
+    }
+    throw;
+  }
+  this->ParseSeconds = Now() - start;
+  for (const std::string& warning : work.Document.Warnings)
+  {
+    vtkWarningMacro("\"" << this->FileName << "\": " << warning);
+  }
+  std::atomic<bool> abort{ false };
+  const std::vector<TopoDS_Shape>& shapes = work.Document.Parts;
+  for (const TopoDS_Shape& shape : shapes)
+  {
+    work.Parts.push_back(nurbs::ConvertPart(shape, vtkNURBSParallelFor, abort));
+    this->UpdateProgress(
+      ParsePart + (1.0 - ParsePart) * double(work.Parts.size()) / double(shapes.size()));
+    if (this->GetAbortExecute())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void vtkNURBSCADReader::MakeModels(Work& work)
+{
+  std::vector<nurbs::CADDocument::Instance>& instances = work.Document.Instances;
+  work.Models.resize(this->SingleModel ? 1 : instances.size());
+  const double scale = OutputUnit(this->LengthUnit, work.Document).second;
+  for (std::size_t i = 0; i < instances.size(); ++i)
+  {
+    Append(
+      work.Parts[instances[i].Part], instances[i], scale, work.Models[this->SingleModel ? 0 : i]);
+  }
+  if (work.PieceCount < 2)
+  {
+    return;
+  }
+  double faces = 0.0;
+  for (const Model& model : work.Models)
+  {
+    faces += double(model.Errors.size());
+  }
+  const auto models = double(instances.size());
+  double extremes[] = { faces, -faces, models, -models };
+  work.Pieces.Largest(extremes, 4);
+  if (extremes[0] != -extremes[1] || extremes[2] != -extremes[3])
+  {
+    throw nurbs::Error("\"" + std::string(this->FileName) +
+      "\" is not the same in all processes: " + std::to_string(std::int64_t(faces)) + " faces of " +
+      std::to_string(instances.size()) + " models");
+  }
+  TakePiece(work.Models, work.Piece, work.PieceCount);
+}
+
+void vtkNURBSCADReader::FillOutput(Work& work, vtkPartitionedDataSetCollection* output)
+{
+  const std::string unit = OutputUnit(this->LengthUnit, work.Document).first;
+  const std::vector<std::string> names = InstanceNames(work.Document);
+  for (std::size_t i = 0; i < work.Models.size(); ++i)
+  {
+    Model& model = work.Models[i];
+    vtkNew<vtkUnstructuredGrid> grid;
+    Store(model, unit, work.Document.HasColors, grid);
+    const bool none = work.PieceCount > 1 && grid->GetNumberOfCells() == 0;
+    AddModel(output, none ? nullptr : grid.Get(),
+      this->SingleModel ? work.Document.Nodes.front().Name : names[i]);
+    for (std::size_t k = 0; work.Piece == 0 && k < model.Unconverted.size(); ++k)
+    {
+      vtkWarningMacro("Face " << model.Unconverted[k] << " (not converted)");
+    }
+  }
+  vtkNew<vtkDataAssembly> assembly;
+  FillAssembly(work.Document, this->SingleModel, assembly);
+  output->SetDataAssembly(assembly);
+}
+
 int vtkNURBSCADReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
   output->Initialize();
@@ -224,80 +332,35 @@ int vtkNURBSCADReader::RequestData(
     vtkErrorMacro("FileName is not set");
     return 1;
   }
-
   const double start = Now();
-  nurbs::CADDocument document;
-  try
+  Work work(request, outputVector);
+  std::string problem;
+  const auto outcome = work.Pieces.Run(
+    [&]() {
+      if (!this->Load(work))
+      {
+        return false;
+      }
+      this->MakeModels(work);
+      this->FillOutput(work, output);
+      return true;
+    },
+    problem);
+  if (outcome != vtkNURBSPieces::DONE)
   {
-    document = nurbs::LoadCADFile(this->FileName, [this](double done) {
-      this->UpdateProgress(ParsePart * done);
-      return !this->GetAbortExecute();
-    });
+    output->Initialize();
   }
-  catch (const std::exception& problem)
+  if (outcome == vtkNURBSPieces::FAILED)
   {
-    if (!this->GetAbortExecute())
-    {
-      this->SetErrorCode(vtkErrorCode::FileFormatError);
-      vtkErrorMacro("Cannot read the file: " << problem.what());
-    }
-    return 1; // Zero would make the executive report a second error.
+    this->SetErrorCode(vtkErrorCode::FileFormatError);
+    vtkErrorMacro("Cannot read the file: " << problem);
   }
-  const double parsed = Now();
-  this->ParseSeconds = parsed - start;
-  for (const std::string& warning : document.Warnings)
+  if (outcome == vtkNURBSPieces::DONE)
   {
-    vtkWarningMacro("\"" << this->FileName << "\": " << warning);
+    this->ConvertSeconds = Now() - start - this->ParseSeconds;
+    this->UpdateProgress(1.0);
   }
-
-  std::vector<nurbs::Part> parts;
-  std::atomic<bool> abort{ false };
-  for (const TopoDS_Shape& shape : document.Parts)
-  {
-    parts.push_back(nurbs::ConvertPart(shape, vtkNURBSParallelFor, abort));
-    this->UpdateProgress(
-      ParsePart + (1.0 - ParsePart) * double(parts.size()) / double(document.Parts.size()));
-    if (this->GetAbortExecute())
-    {
-      return 1;
-    }
-  }
-
-  const auto [unit, scale] = OutputUnit(this->LengthUnit, document);
-  const std::size_t count = this->SingleModel ? 1 : document.Instances.size();
-  std::vector<Model> models(count);
-  std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids(count);
-  for (std::size_t i = 0; i < document.Instances.size(); ++i)
-  {
-    nurbs::CADDocument::Instance& instance = document.Instances[i];
-    Append(parts[instance.Part], instance, scale, models[this->SingleModel ? 0 : i]);
-  }
-  int piece = 0;
-  int pieces = 1;
-  if (vtkNURBSPieces::IsPieceAsked(outputVector->GetInformationObject(0), piece, pieces))
-  {
-    TakePiece(models, piece, pieces);
-  }
-  const std::vector<std::string> names = InstanceNames(document);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    grids[i] = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    Store(models[i], unit, document.HasColors, grids[i]);
-    const bool none = pieces > 1 && grids[i]->GetNumberOfCells() == 0;
-    AddModel(output, none ? nullptr : grids[i].Get(),
-      this->SingleModel ? document.Nodes.front().Name : names[i]);
-    for (std::size_t k = 0; piece == 0 && k < models[i].Unconverted.size(); ++k)
-    {
-      const std::string& reason = models[i].Unconverted[k];
-      vtkWarningMacro("Face " << reason << " (not converted)");
-    }
-  }
-  vtkNew<vtkDataAssembly> assembly;
-  FillAssembly(document, this->SingleModel, assembly);
-  output->SetDataAssembly(assembly);
-  this->ConvertSeconds = Now() - parsed;
-  this->UpdateProgress(1.0);
-  return 1;
+  return 1; // Zero would make the executive report a second error.
 }
 
 void vtkNURBSCADReader::PrintSelf(ostream& os, vtkIndent indent)

@@ -114,6 +114,11 @@ protected:
 private:
   vtkNURBSCADReader(const vtkNURBSCADReader&) = delete;
   void operator=(const vtkNURBSCADReader&) = delete;
+
+  struct Work;
+  bool Load(Work& work);
+  void MakeModels(Work& work);
+  void FillOutput(Work& work, vtkPartitionedDataSetCollection* output);
 };
 
 #endif

@@ -428,24 +428,14 @@ void vtkNURBSCADWriter::WriteData()
     return;
   }
   vtkNURBSPieces pieces; // Partitions of a block are put together where they are parts of a model.
-  std::string problem;
-  work.Input = pieces.Gather(this->GetInput(), problem);
-  if (problem.empty())
-  {
-    problem = vtkNURBSCADTree::Find(work.Input, work.Blocks);
-  }
-  if (!problem.empty())
-  {
-    this->Fail(vtkErrorCode::UserError, problem);
-    return;
-  }
-  if (work.Blocks.empty())
-  {
-    this->Fail(vtkErrorCode::UserError, "there is no face to write");
-    return;
-  }
   try
   {
+    work.Input = pieces.Gather(this->GetInput());
+    vtkNURBSPieces::ThrowIf(vtkNURBSCADTree::Find(work.Input, work.Blocks));
+    if (work.Blocks.empty())
+    {
+      throw nurbs::Error("there is no face to write");
+    }
     if (!this->FindUnits(work) || !this->Build(work))
     {
       return;

@@ -107,16 +107,11 @@ int vtkNURBSTessellator::RequestDataObject(
 }
 
 // The models of the input in one, with offset indices.
-bool vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
+void vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
 {
-  std::string problem;
-  work.Input = work.Pieces.Gather(input, problem, vtkNURBSPieces::NEIGHBOURS);
-  problem = problem.empty() ? work.Pool.Collect(work.Input) : problem;
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem);
-  }
-  if (work.Pieces.IsParallel() && problem.empty())
+  work.Input = work.Pieces.Gather(input, vtkNURBSPieces::NEIGHBOURS);
+  vtkNURBSPieces::ThrowIf(work.Pool.Collect(work.Input));
+  if (work.Pieces.IsParallel())
   {
     const vtkNURBSPieces::Identity identity = work.Pieces.GetIdentity();
     work.Links.IsGhost = identity.IsGhost;
@@ -127,10 +122,9 @@ bool vtkNURBSTessellator::CollectModels(vtkDataObject* input, Work& work)
                             const std::vector<char>& own) { return work.Pieces.Exchange(own); };
     work.Options.Pieces = &work.Links;
   }
-  return problem.empty();
 }
 
-bool vtkNURBSTessellator::FillOptions(Work& work)
+void vtkNURBSTessellator::FillOptions(Work& work)
 {
   nurbs::TessellatorOptions& options = work.Options;
   options.Method = this->Method == QUAD_TREE ? nurbs::SubdivisionMethod::QuadTree
@@ -153,11 +147,12 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   {
     if (!(this->AbsoluteTolerance > 0.0) || !std::isfinite(this->AbsoluteTolerance))
     {
-      vtkErrorMacro("AbsoluteTolerance must be positive, but is " << this->AbsoluteTolerance);
-      return false;
+      std::ostringstream text;
+      text << "AbsoluteTolerance must be positive, but is " << this->AbsoluteTolerance;
+      throw nurbs::Error(text.str());
     }
     options.Tolerance = this->AbsoluteTolerance;
-    return true;
+    return;
   }
   const std::vector<nurbs::Box3> boxes =
     nurbs::FaceBoxes(work.Pool.Model, work.Pool.FaceErrors, vtkNURBSParallelFor);
@@ -170,12 +165,11 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
   options.Tolerance = (diagonal > 0.0 ? diagonal : 1.0) * this->Tolerance;
   if (this->ToleranceMode == RELATIVE)
   {
-    return true;
+    return;
   }
   if (!this->Camera || this->ViewportSize[0] < 1 || this->ViewportSize[1] < 1)
   {
-    vtkErrorMacro("A tolerance in pixels needs a Camera and a ViewportSize of at least 1 x 1");
-    return false;
+    throw nurbs::Error("A tolerance in pixels needs a Camera and a ViewportSize of at least 1 x 1");
   }
   options.FaceTolerances = vtkNURBSFaceExtent::PixelTolerances(
     boxes, this->Camera, this->ViewportSize, this->PixelTolerance, 1e-7 * diagonal);
@@ -184,7 +178,6 @@ bool vtkNURBSTessellator::FillOptions(Work& work)
     options.Tolerance =
       *std::min_element(options.FaceTolerances.begin(), options.FaceTolerances.end());
   }
-  return true;
 }
 
 bool vtkNURBSTessellator::Tessellate(Work& work)
@@ -202,13 +195,9 @@ bool vtkNURBSTessellator::Tessellate(Work& work)
   }
   catch (const std::exception& problem)
   {
-    vtkErrorMacro("Tessellation failed: " << problem.what());
-    return false;
+    throw nurbs::Error(std::string("Tessellation failed: ") + problem.what());
   }
-  double aborted = work.Result.Aborted || this->GetAbortExecute() != 0 ? 1.0 : 0.0;
-  work.Pieces.Largest(&aborted, 1);
-  work.Result.Aborted = aborted > 0.0;
-  return true;
+  return !work.Result.Aborted && this->GetAbortExecute() == 0;
 }
 
 void vtkNURBSTessellator::FillOutputs(Work& work, vtkInformationVector* outputs)
@@ -280,8 +269,8 @@ void vtkNURBSTessellator::Summarize(const Work& work)
 {
   this->NumberOfFaces = vtkIdType(work.Result.Meshes.size());
   this->ToleranceUsed = this->ToleranceMode == PIXELS ? 0.0 : work.Options.Tolerance;
-  std::ostringstream named;
-  int count = 0;
+  std::vector<std::string> named;
+  vtkIdType count = 0;
   std::size_t leaf = 0;
   for (std::size_t f = 0; f < work.Result.Meshes.size(); ++f)
   {
@@ -310,21 +299,12 @@ void vtkNURBSTessellator::Summarize(const Work& work)
     }
     const vtkNURBSModelPool::Leaf& of = work.Pool.Leaves[leaf];
     const auto cell = vtkIdType(f - of.FirstFace);
-    named << "\n  face " << vtkNURBSModel::GetFaceId(of.Grid, cell)
-          << (mesh.Status == nurbs::FaceStatus::Failed ? " failed: " : " capped: ") << mesh.Message;
-  }
-  if (count > 0)
-  {
-    vtkWarningMacro(<< this->NumberOfFailedFaces << " of " << this->NumberOfFaces
-                    << " faces have no triangles, " << this->NumberOfCappedFaces
-                    << " exceed the tolerance:" << named.str()
-                    << (count > MaxNamedFaces
-                           ? "\n  and " + std::to_string(count - MaxNamedFaces) + " more"
-                           : ""));
+    named.push_back("\n  face " + std::to_string(vtkNURBSModel::GetFaceId(of.Grid, cell)) +
+      (mesh.Status == nurbs::FaceStatus::Failed ? " failed: " : " capped: ") + mesh.Message);
   }
   double* const largest[] = { &this->CertifiedError, &this->ToleranceUsed };
   vtkIdType* const sums[] = { &this->NumberOfFaces, &this->NumberOfRepairedFaces,
-    &this->NumberOfCappedFaces, &this->NumberOfFailedFaces, &this->NumberOfGhostFaces };
+    &this->NumberOfCappedFaces, &this->NumberOfFailedFaces, &this->NumberOfGhostFaces, &count };
   for (double* value : largest)
   {
     work.Pieces.Largest(value, 1);
@@ -333,41 +313,73 @@ void vtkNURBSTessellator::Summarize(const Work& work)
   {
     work.Pieces.Sum(value, 1);
   }
+  work.Pieces.Join(named);
+  if (count > 0)
+  {
+    named.resize(std::min(named.size(), std::size_t(MaxNamedFaces)));
+    vtkWarningMacro(<< this->NumberOfFailedFaces << " of " << this->NumberOfFaces
+                    << " faces have no triangles, " << this->NumberOfCappedFaces
+                    << " exceed the tolerance:"
+                    << std::accumulate(named.begin(), named.end(), std::string())
+                    << (count > MaxNamedFaces
+                           ? "\n  and " + std::to_string(count - MaxNamedFaces) + " more"
+                           : ""));
+  }
 }
 
-int vtkNURBSTessellator::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkNURBSTessellator::ClearResults()
 {
-  const double start = Now();
   this->NumberOfTriangles = this->NumberOfPoints = this->NumberOfFaces = 0;
   this->NumberOfRepairedFaces = this->NumberOfGhostFaces = 0;
   this->NumberOfCappedFaces = this->NumberOfFailedFaces = 0;
   this->CertifiedError = this->ToleranceUsed = this->TessellateSeconds = this->OutputSeconds = 0.0;
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  for (int port = 0; port < 2; ++port)
+}
+
+bool vtkNURBSTessellator::Make(vtkDataObject* input, Work& work, vtkInformationVector* outputs)
+{
+  const double start = Now();
+  this->CollectModels(input, work);
+  this->FillOptions(work);
+  if (!this->Tessellate(work))
   {
-    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
+    return false;
   }
-  const vtkNURBSParallelScope parallel;
-  Work work(request, outputs);
-  if (!this->CollectModels(input, work) || !this->FillOptions(work) || !this->Tessellate(work))
-  {
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
   this->TessellateSeconds = Now() - start;
-  if (work.Result.Aborted)
-  {
-    return 1;
-  }
   this->Summarize(work);
   this->FillOutputs(work, outputs);
   work.Pieces.Keep(vtkDataObject::GetData(outputs, 0));
   work.Pieces.Keep(vtkDataObject::GetData(outputs, 1));
   this->OutputSeconds = Now() - start - this->TessellateSeconds;
-  this->UpdateProgress(1.0);
-  return 1;
+  return true;
+}
+
+int vtkNURBSTessellator::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  const vtkNURBSParallelScope parallel;
+  Work work(request, outputs);
+  std::string problem;
+  const auto outcome = work.Pieces.Run([&]() { return this->Make(input, work, outputs); }, problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->ClearResults();
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
+  }
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSTessellator::PrintSelf(ostream& os, vtkIndent indent)

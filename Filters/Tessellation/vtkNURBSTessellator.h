@@ -312,12 +312,14 @@ private:
   void operator=(const vtkNURBSTessellator&) = delete;
 
   struct Work;
-  bool CollectModels(vtkDataObject* input, Work& work);
-  bool FillOptions(Work& work);
+  bool Make(vtkDataObject* input, Work& work, vtkInformationVector* outputs);
+  void CollectModels(vtkDataObject* input, Work& work);
+  void FillOptions(Work& work);
   bool Tessellate(Work& work);
   void FillOutputs(Work& work, vtkInformationVector* outputs);
   void TellWhole(Work& work, const std::vector<vtkPolyData*>& meshes) const;
   void Summarize(const Work& work);
+  void ClearResults();
 
   int ToleranceMode = RELATIVE;
   double Tolerance = 1e-3;

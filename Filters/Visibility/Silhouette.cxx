@@ -152,34 +152,97 @@ void SilhouetteMaker::TraceFace(
   }
 }
 
+template <typename T>
+void GetOne(T& value, MessageReader& message)
+{
+  std::vector<T> values;
+  message.Get(values);
+  value = values.at(0);
+}
+
+// Lines as they are traced: what they are chained to is not yet known.
+void PutLines(const std::vector<SilhouetteLine>& lines, MessageWriter& message)
+{
+  const std::int64_t count = std::int64_t(lines.size());
+  message.Put(&count, 1);
+  for (const SilhouetteLine& line : lines)
+  {
+    const std::int64_t head[] = { std::int64_t(line.Kind), line.Face, line.Edge, line.Crease,
+      line.Closed };
+    message.Put(head, 5);
+    message.Put(line.Ends, 2);
+    message.Put(line.Points);
+  }
+}
+
+void GetLines(std::vector<SilhouetteLine>& lines, MessageReader& message)
+{
+  std::int64_t count = 0;
+  GetOne(count, message);
+  lines.resize(std::size_t(count));
+  for (SilhouetteLine& line : lines)
+  {
+    std::vector<std::int64_t> head;
+    std::vector<TrimCrossing> ends;
+    message.Get(head);
+    message.Get(ends);
+    message.Get(line.Points);
+    line.Kind = LineKind(head[0]);
+    line.Face = head[1];
+    line.Edge = head[2];
+    line.Crease = head[3] != 0;
+    line.Closed = head[4] != 0;
+    std::copy(ends.begin(), ends.end(), line.Ends);
+  }
+}
+
 void SilhouetteMaker::TraceFaces(Silhouettes& out)
 {
   const std::int64_t count = std::int64_t(this->Whole.Data.Faces.size());
   std::vector<std::vector<SilhouetteLine>> lines(count);
-  this->Options.Parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end && !this->Aborted; ++f)
+  const auto trace = [&](std::int64_t f) {
+    if (this->Aborted)
     {
-      FaceSilhouette& status = out.Faces[f];
-      status.Message = this->FaceErrors[f];
-      try
-      {
-        if (status.Message.empty())
-        {
-          this->TraceFace(f, status, lines[f]);
-        }
-      }
-      catch (const Error& problem)
-      {
-        status.Message = problem.what();
-        lines[f].clear();
-      }
-      if (!status.Message.empty() && status.Status == SilhouetteStatus::Ok)
-      {
-        status.Status = SilhouetteStatus::Failed;
-      }
-      this->Step();
+      return;
     }
-  });
+    FaceSilhouette& status = out.Faces[f];
+    status.Message = this->FaceErrors[f];
+    try
+    {
+      if (status.Message.empty())
+      {
+        this->TraceFace(f, status, lines[f]);
+      }
+    }
+    catch (const Error& problem)
+    {
+      status.Message = problem.what();
+      lines[f].clear();
+    }
+    if (!status.Message.empty() && status.Status == SilhouetteStatus::Ok)
+    {
+      status.Status = SilhouetteStatus::Failed;
+    }
+    this->Step();
+  };
+  ForShared(
+    this->Options.Share, this->Options.Parallel, count, trace,
+    [&](std::int64_t f, MessageWriter& message) {
+      const FaceSilhouette& status = out.Faces[f];
+      message.Put(&status.Status, 1);
+      message.Put(status.Message);
+      message.Put(status.Patches, PatchVisibilityCount);
+      PutLines(lines[f], message);
+    },
+    [&](std::int64_t f, MessageReader& message) {
+      FaceSilhouette& status = out.Faces[f];
+      GetOne(status.Status, message);
+      message.Get(status.Message);
+      std::vector<std::int64_t> patches;
+      message.Get(patches);
+      std::copy(patches.begin(), patches.end(), status.Patches);
+      GetLines(lines[f], message);
+    });
   for (std::vector<SilhouetteLine>& part : lines)
   {
     std::move(part.begin(), part.end(), std::back_inserter(out.Lines));
@@ -227,43 +290,56 @@ void SilhouetteMaker::TraceEdges(Silhouettes& out)
   const Model& model = this->Whole.Data;
   const std::int64_t count = std::int64_t(model.Edges.size());
   out.EdgeKinds.assign(count, LineKind::Smooth);
-  std::vector<SilhouetteLine> lines(count);
+  std::vector<std::vector<SilhouetteLine>> lines(count); // One an edge, or none.
   std::vector<std::vector<SilhouetteLine>> contours(count);
-  this->Options.Parallel(0, count, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t e = begin; e < end && !this->Aborted; ++e)
+  const auto trace = [&](std::int64_t e) {
+    if (this->Aborted)
     {
-      this->Step();
-      const std::vector<EdgeUse>& uses = this->Uses[e];
-      if (uses.empty() || IsDegenerate(model.Edges[e]))
+      return;
+    }
+    this->Step();
+    const std::vector<EdgeUse>& uses = this->Uses[e];
+    if (uses.empty() || IsDegenerate(model.Edges[e]))
+    {
+      return;
+    }
+    const LineKind kind = KindOfEdge(model, e, uses, this->Options.FeatureAngle);
+    out.EdgeKinds[e] = kind;
+    if (kind == LineKind::Smooth && this->Options.Kinds[0] && MayTurn(out, uses))
+    {
+      this->TraceEdge(e, contours[e]);
+    }
+    if (this->Options.Kinds[static_cast<int>(kind)])
+    {
+      SilhouetteLine line;
+      line.Kind = kind;
+      line.Face = uses.front().Face;
+      line.Edge = e;
+      line.Points = LiftEdge(model, uses.front(),
+        model.TrimCurves[uses.front().Curve].Geometry.Domain(), this->Options.Precision);
+      if (line.Points.size() > 1)
       {
-        continue;
-      }
-      const LineKind kind = KindOfEdge(model, e, uses, this->Options.FeatureAngle);
-      out.EdgeKinds[e] = kind;
-      if (kind == LineKind::Smooth && this->Options.Kinds[0] && MayTurn(out, uses))
-      {
-        this->TraceEdge(e, contours[e]);
-      }
-      if (this->Options.Kinds[static_cast<int>(kind)])
-      {
-        SilhouetteLine& line = lines[e];
-        line.Kind = kind;
-        line.Face = uses.front().Face;
-        line.Edge = e;
-        line.Points = LiftEdge(model, uses.front(),
-          model.TrimCurves[uses.front().Curve].Geometry.Domain(), this->Options.Precision);
+        lines[e].push_back(std::move(line));
       }
     }
-  });
-  for (std::vector<SilhouetteLine>& part : contours)
+  };
+  ForShared(
+    this->Options.Share, this->Options.Parallel, count, trace,
+    [&](std::int64_t e, MessageWriter& message) {
+      message.Put(&out.EdgeKinds[e], 1);
+      PutLines(contours[e], message);
+      PutLines(lines[e], message);
+    },
+    [&](std::int64_t e, MessageReader& message) {
+      GetOne(out.EdgeKinds[e], message);
+      GetLines(contours[e], message);
+      GetLines(lines[e], message);
+    });
+  for (std::vector<std::vector<SilhouetteLine>>* all : { &contours, &lines })
   {
-    std::move(part.begin(), part.end(), std::back_inserter(out.Lines));
-  }
-  for (SilhouetteLine& line : lines)
-  {
-    if (line.Points.size() > 1)
+    for (std::vector<SilhouetteLine>& part : *all)
     {
-      out.Lines.push_back(std::move(line));
+      std::move(part.begin(), part.end(), std::back_inserter(out.Lines));
     }
   }
 }

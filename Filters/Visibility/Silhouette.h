@@ -8,6 +8,7 @@
 
 #include "ContourTrim.h"
 #include "FeatureEdges.h"
+#include "WorkShare.h"
 
 namespace nurbs
 {
@@ -23,6 +24,7 @@ struct SilhouetteOptions
   /// The part of a face, one a face: lines of different parts are not chained. Empty: one part.
   std::vector<int> Parts;
   ParallelFor Parallel = SerialFor;
+  WorkShare Share; ///< Processes that all make the lines of the same model.
   /// Called from any thread with the share done, one call at a time or more; false: stop.
   std::function<bool(double)> Progress;
 };

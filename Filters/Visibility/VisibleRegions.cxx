@@ -146,6 +146,7 @@ bool RegionMaker::MakeLines()
   options.MaximumCells = this->Options.MaximumCells;
   options.Parts = this->Options.Parts;
   options.Parallel = this->Options.Parallel;
+  options.Share = this->Options.Share;
   options.Progress = [&](double done) { return this->Report(LinesDone * done); };
   this->Out.Lines = MakeViewLines(this->Source, this->Caster.GetTrims(), this->FaceErrors, options,
     this->Image, this->Options.Regions || this->Options.SmoothLines,
@@ -298,21 +299,69 @@ void RegionMaker::FillFace(const RegionCells& cells, std::int64_t index, TracedR
   DropFlatLoops(model, index, face.Loops);
 }
 
+void PutRegion(const FaceRegion& face, MessageWriter& message)
+{
+  const double numbers[] = { face.IsWhole ? 1.0 : 0.0, face.IsInexact ? 1.0 : 0.0, face.Area,
+    face.VisibleArea };
+  message.Put(numbers, 4);
+  std::vector<std::int64_t> sizes;
+  for (const RegionLoop& loop : face.Loops)
+  {
+    sizes.push_back(std::int64_t(loop.size()));
+  }
+  message.Put(sizes);
+  for (const RegionLoop& loop : face.Loops)
+  {
+    for (const RegionPiece& piece : loop)
+    {
+      message.Put(&piece.Curve, 1);
+      const double range[] = { piece.From, piece.To };
+      message.Put(range, 2);
+      message.Put(piece.Polyline);
+    }
+  }
+}
+
+void GetRegion(FaceRegion& face, MessageReader& message)
+{
+  std::vector<double> numbers;
+  std::vector<std::int64_t> sizes, curve;
+  message.Get(numbers);
+  message.Get(sizes);
+  face.IsWhole = numbers[0] != 0.0;
+  face.IsInexact = numbers[1] != 0.0;
+  face.Area = numbers[2];
+  face.VisibleArea = numbers[3];
+  for (const std::int64_t size : sizes)
+  {
+    face.Loops.emplace_back(std::size_t(size));
+    for (RegionPiece& piece : face.Loops.back())
+    {
+      message.Get(curve);
+      message.Get(numbers);
+      message.Get(piece.Polyline);
+      piece.Curve = curve[0];
+      piece.From = numbers[0];
+      piece.To = numbers[1];
+    }
+  }
+}
+
 bool RegionMaker::FillFaces()
 {
   const ViewLines& lines = this->Out.Lines;
-  std::vector<TracedRegion> traced = TraceRegions(lines, this->Image, this->Caster, this->Map,
-    this->Options.Precision, this->Options.BothSides, this->Options.Parallel);
+  std::vector<TracedRegion> traced =
+    TraceRegions(lines, this->Image, this->Caster, this->Map, this->Options.Precision,
+      this->Options.BothSides, ForOwn(this->Options.Share, this->Options.Parallel));
   this->Out.Faces.resize(traced.size());
   this->FindShownFaces();
   const RegionCells cells(
     lines, this->Image, this->Caster, this->Options.Precision, this->Options.BothSides);
-  this->Options.Parallel(0, std::int64_t(traced.size()), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f)
-    {
-      this->FillFace(cells, f, std::move(traced[f]));
-    }
-  });
+  ForShared(
+    this->Options.Share, this->Options.Parallel, std::int64_t(traced.size()),
+    [&](std::int64_t f) { this->FillFace(cells, f, std::move(traced[f])); },
+    [&](std::int64_t f, MessageWriter& message) { PutRegion(this->Out.Faces[f], message); },
+    [&](std::int64_t f, MessageReader& message) { GetRegion(this->Out.Faces[f], message); });
   std::vector<std::vector<RegionLoop>> regions(this->Out.Faces.size());
   for (std::size_t f = 0; f < regions.size(); ++f)
   {

@@ -34,6 +34,7 @@ struct VisibleRegionOptions
   std::int64_t MaximumCells = 20000; ///< As SilhouetteOptions.
   std::vector<int> Parts;            ///< As SilhouetteOptions.
   ParallelFor Parallel = SerialFor;
+  WorkShare Share; ///< Processes that all make the regions of the same model.
   /// Called from any thread with the share done; false: stop.
   std::function<bool(double)> Progress;
 };

@@ -21,6 +21,10 @@ vtkStandardNewMacro(vtkNURBSSilhouette);
 
 struct vtkNURBSSilhouette::Work
 {
+  Work(vtkInformation* request, vtkInformationVector* outputs)
+    : Pieces(request, outputs)
+  {}
+  vtkNURBSPieces Pieces;
   vtkNURBSModelPool Pool;
   nurbs::SilhouetteOptions Options;
   nurbs::Silhouettes Result;
@@ -48,8 +52,10 @@ void vtkNURBSSilhouette::Make(Work& work)
   std::copy(std::begin(kinds), std::end(kinds), options.Kinds);
   options.Parts = PartsOf(pool);
   options.Parallel = vtkNURBSParallelFor;
-  vtkNURBSRunWithProgress(
-    this, IsQuick(pool), 0.0, 0.95, [&](const std::function<bool(double)>& progress) {
+  options.Share = work.Pieces.GetShare();
+  // Processes talk in this thread only: MPI need not know of others.
+  vtkNURBSRunWithProgress(this, work.Pieces.IsParallel() || IsQuick(pool), 0.0, 0.95,
+    [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
       work.Result = nurbs::MakeSilhouettes(pool.Model, pool.FaceErrors, options);
     });
@@ -103,41 +109,8 @@ void vtkNURBSSilhouette::ClearResults()
   this->ClearCounts();
 }
 
-int vtkNURBSSilhouette::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkNURBSSilhouette::FillOutput(Work& work, vtkDataObject* whole, vtkDataObject* output)
 {
-  const double start = Now();
-  this->ClearResults();
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs);
-  vtkNURBSModelPool::CopyTree(input, output);
-  const vtkNURBSParallelScope parallel;
-  Work work;
-  vtkNURBSPieces pieces(request, outputs);
-  vtkDataObject* whole = input;
-  try
-  {
-    std::string problem = this->CheckOptions();
-    whole = problem.empty() ? pieces.Gather(input, problem) : input;
-    problem = problem.empty() ? work.Pool.Collect(whole) : problem;
-    if (!problem.empty())
-    {
-      throw nurbs::Error(problem);
-    }
-    this->Make(work);
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro(<< problem.what());
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  if (work.Result.Aborted)
-  {
-    return 1;
-  }
-  this->Summarize(work);
   vtkNURBSModelPool::CopyTree(whole, output);
   const std::vector<vtkPolyData*> leaves = work.Pool.MakeLeaves(whole, output);
   for (std::size_t k = 0; k < leaves.size(); ++k)
@@ -152,10 +125,50 @@ int vtkNURBSSilhouette::RequestData(
     this->NumberOfLines += leaves[k]->GetNumberOfLines();
     this->NumberOfPoints += leaves[k]->GetNumberOfPoints();
   }
-  pieces.Keep(output);
-  this->Seconds = Now() - start;
-  this->UpdateProgress(1.0);
-  return 1;
+}
+
+int vtkNURBSSilhouette::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const double start = Now();
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const vtkNURBSParallelScope parallel;
+  Work work(request, outputs);
+  std::string problem;
+  const auto outcome = work.Pieces.Run(
+    [&]() {
+      vtkNURBSPieces::ThrowIf(this->CheckOptions());
+      vtkDataObject* whole = work.Pieces.Gather(input);
+      vtkNURBSPieces::ThrowIf(work.Pool.Collect(whole));
+      this->Make(work);
+      if (work.Result.Aborted)
+      {
+        return false;
+      }
+      this->Summarize(work);
+      this->FillOutput(work, whole, output);
+      work.Pieces.Keep(output);
+      return true;
+    },
+    problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    this->Seconds = Now() - start;
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->ClearResults();
+  vtkNURBSModelPool::CopyTree(input, output);
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSSilhouette::PrintSelf(ostream& os, vtkIndent indent)

@@ -107,6 +107,7 @@ private:
   struct Work;
   void Make(Work& work);
   void Summarize(const Work& work);
+  void FillOutput(Work& work, vtkDataObject* whole, vtkDataObject* output);
   void ClearResults();
 
   vtkIdType NumberOfVisiblePatches = 0;

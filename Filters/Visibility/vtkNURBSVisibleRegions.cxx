@@ -28,11 +28,13 @@ struct vtkNURBSVisibleRegions::Kept
 
 struct vtkNURBSVisibleRegions::Work
 {
-  explicit Work(const vtkNURBSModelPool& pool)
+  Work(const vtkNURBSModelPool& pool, const vtkNURBSPieces& pieces)
     : Pool(pool)
+    , Pieces(pieces)
   {}
 
   const vtkNURBSModelPool& Pool;
+  const vtkNURBSPieces& Pieces;
   nurbs::VisibleRegionOptions Options;
   nurbs::VisibleRegions Result;
 };
@@ -77,8 +79,10 @@ void vtkNURBSVisibleRegions::Make(Work& work)
   options.Clustering = this->Clustering;
   options.Parts = PartsOf(pool);
   options.Parallel = vtkNURBSParallelFor;
-  vtkNURBSRunWithProgress(
-    this, IsQuick(pool), 0.0, 0.9, [&](const std::function<bool(double)>& progress) {
+  options.Share = work.Pieces.GetShare();
+  // Processes talk in this thread only: MPI need not know of others.
+  vtkNURBSRunWithProgress(this, work.Pieces.IsParallel() || IsQuick(pool), 0.0, 0.9,
+    [&](const std::function<bool(double)>& progress) {
       options.Progress = progress;
       work.Result =
         nurbs::MakeVisibleRegions(pool.Model, pool.FaceErrors, options, &this->Before->Cache);
@@ -182,53 +186,64 @@ void vtkNURBSVisibleRegions::FillOutputs(
     [&](const nurbs::DrawnLine& line) { return line.Visible && choice.Kinds[int(line.Kind)]; });
 }
 
+// False: it was aborted.
+bool vtkNURBSVisibleRegions::MakeOutputs(
+  vtkDataObject* input, vtkNURBSPieces& pieces, vtkInformationVector* outputs)
+{
+  vtkNURBSPieces::ThrowIf(this->CheckOptions());
+  vtkDataObject* whole = pieces.Gather(input);
+  if (!(this->Before && this->Before->Pool.IsUpToDate(whole)))
+  {
+    this->Before = std::make_unique<Kept>();
+    vtkNURBSPieces::ThrowIf(this->Before->Pool.Collect(whole));
+  }
+  Work work(this->Before->Pool, pieces);
+  this->Make(work);
+  if (work.Result.Aborted || this->GetAbortExecute())
+  {
+    return false;
+  }
+  this->Summarize(work);
+  this->FillOutputs(work, whole, outputs);
+  pieces.Keep(vtkDataObject::GetData(outputs, 0));
+  pieces.Keep(vtkDataObject::GetData(outputs, 1));
+  return true;
+}
+
 int vtkNURBSVisibleRegions::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double start = Now();
   this->ClearResults();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  const vtkNURBSParallelScope parallel;
+  vtkNURBSPieces pieces(request, outputs);
+  std::string problem;
+  const auto outcome =
+    pieces.Run([&]() { return this->MakeOutputs(input, pieces, outputs); }, problem);
+  if (outcome == vtkNURBSPieces::FAILED || pieces.IsParallel())
+  {
+    this->Before = nullptr; // What was gathered goes with the pieces.
+  }
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    this->Seconds = Now() - start;
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->ClearResults();
   for (int port = 0; port < 2; ++port)
   {
     vtkNURBSModelPool::CopyTree(input, vtkDataObject::GetData(outputs, port));
   }
-  const vtkNURBSParallelScope parallel;
-  vtkNURBSPieces pieces(request, outputs);
-  try
+  if (outcome == vtkNURBSPieces::ABORTED)
   {
-    std::string problem = this->CheckOptions();
-    vtkDataObject* whole = problem.empty() ? pieces.Gather(input, problem) : input;
-    if (problem.empty() && !(this->Before && this->Before->Pool.IsUpToDate(whole)))
-    {
-      this->Before = std::make_unique<Kept>();
-      problem = this->Before->Pool.Collect(whole);
-    }
-    if (!problem.empty())
-    {
-      this->Before = nullptr;
-      throw nurbs::Error(problem);
-    }
-    Work work(this->Before->Pool);
-    this->Make(work);
-    if (!work.Result.Aborted && !this->GetAbortExecute())
-    {
-      this->Summarize(work);
-      this->FillOutputs(work, whole, outputs);
-      pieces.Keep(vtkDataObject::GetData(outputs, 0));
-      pieces.Keep(vtkDataObject::GetData(outputs, 1));
-      this->Seconds = Now() - start;
-      this->UpdateProgress(1.0);
-    }
+    return 1;
   }
-  catch (const std::exception& problem)
-  {
-    this->Before = nullptr;
-    vtkErrorMacro(<< problem.what());
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
-  return 1;
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSVisibleRegions::PrintSelf(ostream& os, vtkIndent indent)

@@ -62,6 +62,8 @@
 
 class vtkPolyData;
 
+class vtkNURBSPieces;
+
 class VTKNURBSFILTERSVISIBILITY_EXPORT vtkNURBSVisibleRegions : public vtkNURBSViewAlgorithm
 {
 public:
@@ -198,6 +200,7 @@ private:
   struct Kept;
   struct Work;
   void Make(Work& work);
+  bool MakeOutputs(vtkDataObject* input, vtkNURBSPieces& pieces, vtkInformationVector* outputs);
   void Summarize(const Work& work);
   void FillOutputs(const Work& work, vtkDataObject* input, vtkInformationVector* outputs);
   void ClearResults();

@@ -70,14 +70,26 @@ int vtkNURBSWaveletLOD::RequestDataObject(
   return vtkNURBSModelPool::MakeOutputs(vtkDataObject::GetData(inputs[0]), outputs, 1) ? 1 : 0;
 }
 
-bool vtkNURBSWaveletLOD::Analyse(
-  vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs)
+// What the options can't be; throws nurbs::Error.
+void vtkNURBSWaveletLOD::CheckOptions() const
 {
-  if (!(this->FinestTolerance > 0.0) || !std::isfinite(this->FinestTolerance))
+  const auto check = [](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+    {
+      std::ostringstream text;
+      text << name << " must be positive, but is " << value;
+      throw nurbs::Error(text.str());
+    }
+  };
+  check("FinestTolerance", this->FinestTolerance);
+  if (this->Mode == MAXIMUM_ERROR)
   {
-    vtkErrorMacro("FinestTolerance must be positive, but is " << this->FinestTolerance);
-    return false;
+    check("MaximumError", this->MaximumError);
   }
+}
+
+void vtkNURBSWaveletLOD::Analyse(vtkDataObject* input, std::unique_ptr<Pyramids> work)
+{
   nurbs::WaveletOptions options;
   options.Kind = this->Wavelet == HAAR ? nurbs::Wavelet::Haar
     : this->Wavelet == LIFTED          ? nurbs::Wavelet::Lifted
@@ -87,24 +99,17 @@ bool vtkNURBSWaveletLOD::Analyse(
   const auto scale = [&](const Pyramids& pyramids) {
     return this->ToleranceMode == RELATIVE ? pyramids.Diagonal : 1.0;
   };
-  auto work = std::make_unique<Pyramids>(request, outputs);
   if (this->Kept && this->Kept->Pieces.IsParallel() == work->Pieces.IsParallel() &&
     this->Kept->Pieces.IsUpToDate(input) && this->Kept->Options.Kind == options.Kind &&
     this->Kept->Options.Finest.MaximumSamples == options.Finest.MaximumSamples &&
     this->Kept->Options.Finest.Tolerance == scale(*this->Kept) * this->FinestTolerance)
   {
-    return true;
+    return;
   }
   const double start = Now();
   this->Kept.reset();
-  std::string problem;
-  work->Input = work->Pieces.Gather(input, problem);
-  problem = problem.empty() ? work->Pool.Collect(work->Input) : problem;
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem);
-    return false;
-  }
+  work->Input = work->Pieces.Gather(input);
+  vtkNURBSPieces::ThrowIf(work->Pool.Collect(work->Input));
   const double diagonal =
     nurbs::SampledDiagonal(work->Pool.Model, work->Pool.FaceErrors, vtkNURBSParallelFor);
   work->Diagonal = diagonal > 0.0 ? diagonal : 1.0;
@@ -120,17 +125,10 @@ bool vtkNURBSWaveletLOD::Analyse(
   work->Options = options;
   this->Kept = std::move(work);
   this->AnalyseSeconds = Now() - start;
-  return true;
 }
 
-bool vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
+void vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
 {
-  if (this->Mode == MAXIMUM_ERROR &&
-    (!(this->MaximumError > 0.0) || !std::isfinite(this->MaximumError)))
-  {
-    vtkErrorMacro("MaximumError must be positive, but is " << this->MaximumError);
-    return false;
-  }
   meshes.Limit =
     (this->ToleranceMode == RELATIVE ? this->Kept->Diagonal : 1.0) * this->MaximumError;
   nurbs::WaveletModel& model = *this->Kept->Model;
@@ -142,7 +140,6 @@ bool vtkNURBSWaveletLOD::Mesh(Meshes& meshes)
                                                 : model.Level(this->Level);
   });
   model.SetProgress(nullptr);
-  return true;
 }
 
 void vtkNURBSWaveletLOD::FillOutputs(Meshes& meshes, vtkDataObject* output)
@@ -211,45 +208,21 @@ void vtkNURBSWaveletLOD::ClearResults()
   this->ErrorBound = this->AnalyseSeconds = this->MeshSeconds = 0.0;
 }
 
-int vtkNURBSWaveletLOD::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+bool vtkNURBSWaveletLOD::Make(
+  vtkDataObject* input, std::unique_ptr<Pyramids> work, vtkDataObject* output)
 {
   const double start = Now();
-  this->ClearResults();
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs);
-  vtkNURBSModelPool::CopyTree(input, output);
-  const vtkNURBSParallelScope parallel;
+  this->CheckOptions();
+  this->Analyse(input, std::move(work));
+  if (this->Kept->Model->IsAborted())
+  {
+    return false;
+  }
   Meshes meshes;
-  try
-  {
-    if (!this->Analyse(input, request, outputs))
-    {
-      this->SetErrorCode(vtkErrorCode::UserError);
-      return 0;
-    }
-    if (this->Kept->Model->IsAborted())
-    {
-      this->Kept.reset();
-      return 1;
-    }
-    if (!this->Mesh(meshes))
-    {
-      this->SetErrorCode(vtkErrorCode::UserError);
-      return 0;
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro("Analysis failed: " << problem.what());
-    this->Kept.reset();
-    this->SetErrorCode(vtkErrorCode::UserError);
-    return 0;
-  }
-  this->SetErrorCode(vtkErrorCode::NoError);
+  this->Mesh(meshes);
   if (meshes.Result.Aborted)
   {
-    return 1;
+    return false;
   }
   if (!meshes.Result.WithinBudget)
   {
@@ -258,8 +231,37 @@ int vtkNURBSWaveletLOD::RequestData(
   this->Summarize(meshes);
   this->FillOutputs(meshes, output);
   this->MeshSeconds = Now() - start - this->AnalyseSeconds;
-  this->UpdateProgress(1.0);
-  return 1;
+  return true;
+}
+
+int vtkNURBSWaveletLOD::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->ClearResults();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const vtkNURBSParallelScope parallel;
+  const vtkNURBSPieces pieces(request, outputs);
+  std::string problem;
+  const auto outcome = pieces.Run(
+    [&]() { return this->Make(input, std::make_unique<Pyramids>(request, outputs), output); },
+    problem);
+  this->SetErrorCode(
+    outcome == vtkNURBSPieces::FAILED ? vtkErrorCode::UserError : vtkErrorCode::NoError);
+  if (outcome == vtkNURBSPieces::DONE)
+  {
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->Kept.reset();
+  this->ClearResults();
+  vtkNURBSModelPool::CopyTree(input, output);
+  if (outcome == vtkNURBSPieces::ABORTED)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< problem);
+  return 0;
 }
 
 void vtkNURBSWaveletLOD::PrintSelf(ostream& os, vtkIndent indent)

@@ -213,8 +213,10 @@ private:
 
   struct Pyramids;
   struct Meshes;
-  bool Analyse(vtkDataObject* input, vtkInformation* request, vtkInformationVector* outputs);
-  bool Mesh(Meshes& meshes);
+  void CheckOptions() const;
+  bool Make(vtkDataObject* input, std::unique_ptr<Pyramids> work, vtkDataObject* output);
+  void Analyse(vtkDataObject* input, std::unique_ptr<Pyramids> work);
+  void Mesh(Meshes& meshes);
   void FillOutputs(Meshes& meshes, vtkDataObject* output);
   void Summarize(const Meshes& meshes);
   void ClearResults();

@@ -6,12 +6,15 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNURBSModel.h"
 #include "vtkNURBSParallel.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace
 {
@@ -22,6 +25,8 @@ void Append(Stamps& stamps, vtkObject* object)
 {
   stamps.emplace_back(object, object ? object->GetMTime() : 0);
 }
+
+constexpr const char* OriginName = "DrawnOrigin";
 
 // Identity and age of the arrays that describe surfaces, or those of loops and edges.
 Stamps StructureOf(vtkUnstructuredGrid* grid, bool trims)
@@ -40,7 +45,8 @@ Stamps StructureOf(vtkUnstructuredGrid* grid, bool trims)
   for (int i = 0; i < grid->GetFieldData()->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = grid->GetFieldData()->GetAbstractArray(i);
-    if (vtkNURBSModel::IsTrimArray(array->GetName()) == trims)
+    const char* name = array->GetName();
+    if (vtkNURBSModel::IsTrimArray(name) == trims && !(name && !strcmp(name, OriginName)))
     {
       Append(stamps, array);
     }
@@ -68,6 +74,11 @@ std::vector<vtkNURBSDrawnModel::Leaf> LeavesOf(vtkDataObject* input, bool& other
       vtkNURBSDrawnModel::Leaf leaf;
       leaf.Grid = grid;
       leaf.FlatIndex = index;
+      if (vtkDataArray* origin = grid->GetFieldData()->GetArray(OriginName))
+      {
+        leaf.FlatIndex = static_cast<unsigned int>(origin->GetComponent(0, 0));
+        leaf.Process = static_cast<int>(origin->GetComponent(0, 1));
+      }
       leaf.Surfaces = StructureOf(grid, false);
       leaf.Trims = StructureOf(grid, true);
       leaf.Points = PointsOf(grid);
@@ -117,6 +128,15 @@ std::shared_ptr<const vtkNURBSModelView> ViewOf(
 
 } // namespace
 
+void vtkNURBSDrawnModel::SetOrigin(vtkUnstructuredGrid* grid, unsigned int flatIndex, int process)
+{
+  vtkNew<vtkIntArray> origin;
+  origin->SetName(OriginName);
+  origin->SetNumberOfComponents(2);
+  origin->InsertNextTuple2(flatIndex, process);
+  grid->GetFieldData()->AddArray(origin);
+}
+
 vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
 {
   std::vector<Leaf> leaves = LeavesOf(input, this->OtherData);
@@ -126,7 +146,8 @@ vtkNURBSDrawnModel::Change vtkNURBSDrawnModel::Update(vtkDataObject* input)
   for (std::size_t i = 0; i < leaves.size() && sameSurfaces; ++i)
   {
     sameSurfaces = leaves[i].Surfaces == this->Leaves[i].Surfaces &&
-      leaves[i].FlatIndex == this->Leaves[i].FlatIndex;
+      leaves[i].FlatIndex == this->Leaves[i].FlatIndex &&
+      leaves[i].Process == this->Leaves[i].Process;
     samePoints = samePoints && leaves[i].Points == this->Leaves[i].Points;
     sameTrims = sameTrims && leaves[i].Trims == this->Leaves[i].Trims;
   }

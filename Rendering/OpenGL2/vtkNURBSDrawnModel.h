@@ -40,6 +40,7 @@ public:
   {
     vtkSmartPointer<vtkUnstructuredGrid> Grid;
     unsigned int FlatIndex = 0; ///< In the composite data set; 0: there is none.
+    int Process = -1;           ///< The process that has the data; -1: the one that draws.
     int First = 0;              ///< Its first surface.
     std::shared_ptr<const vtkNURBSModelView> View;
     std::vector<std::pair<const void*, vtkMTimeType>> Surfaces;
@@ -47,6 +48,9 @@ public:
     std::vector<std::pair<const void*, vtkMTimeType>> Points;
     const nurbs::Model& Model() const { return this->View->GetModel(); }
   };
+
+  /// Tells in the field data where a model comes from; see vtkNURBSMapper::SetOrigin.
+  static void SetOrigin(vtkUnstructuredGrid* grid, unsigned int flatIndex, int process);
 
   /// Takes the input as it is now. Faces with errors are not drawn; GetWarnings has a line for each
   /// that is new. Throws nurbs::Error if the surfaces are too many or too large for the tables, which

@@ -121,10 +121,13 @@ void vtkNURBSFaceLooks::MarkSelected(
     vtkInformation* about = node->GetProperties();
     const bool ofBlock = about->Has(vtkSelectionNode::COMPOSITE_INDEX()) != 0;
     const int block = ofBlock ? about->Get(vtkSelectionNode::COMPOSITE_INDEX()) : 0;
+    const bool ofProcess = about->Has(vtkSelectionNode::PROCESS_ID()) != 0;
+    const int process = ofProcess ? about->Get(vtkSelectionNode::PROCESS_ID()) : -1;
     for (const vtkNURBSDrawnModel::Leaf& leaf : model.GetLeaves())
     {
       const auto faces = static_cast<vtkIdType>(leaf.Model().Faces.size());
-      const bool named = leaf.FlatIndex == 0 || (ofBlock && int(leaf.FlatIndex) == block);
+      const bool named = (leaf.FlatIndex == 0 || (ofBlock && int(leaf.FlatIndex) == block)) &&
+        (leaf.Process < 0 || process < 0 || leaf.Process == process);
       for (vtkIdType i = 0; named && i < cells->GetNumberOfValues(); ++i)
       {
         const vtkIdType face = cells->GetValue(i);

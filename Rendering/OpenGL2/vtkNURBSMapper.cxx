@@ -299,7 +299,8 @@ std::string vtkNURBSMapper::SendModel()
       infos[index].Reversed = leaf.Model().Faces[f].Reversed;
       infos[index].Trim = trims.FaceStart[index];
       infos[index].Tolerance = ToleranceOf(leaf.Model(), leaf.Model().Faces[f]);
-      ids.insert(ids.end(), { static_cast<int>(f), static_cast<int>(leaf.FlatIndex), 0, 0 });
+      ids.insert(
+        ids.end(), { static_cast<int>(f), static_cast<int>(leaf.FlatIndex), leaf.Process + 1, 0 });
     }
   }
   if (!(c.ModelIsSent ? c.Textures.SetInfos(table, infos) : c.Textures.SetTable(table, infos)))
@@ -471,6 +472,11 @@ void vtkNURBSMapper::UpdateMaximumPointCellIds(vtkRenderer* renderer, vtkActor*)
   {
     selector->UpdateMaximumCellId(leaf.Grid->GetNumberOfCells());
   }
+}
+
+void vtkNURBSMapper::SetOrigin(vtkUnstructuredGrid* model, unsigned int flatIndex, int process)
+{
+  vtkNURBSDrawnModel::SetOrigin(model, flatIndex, process);
 }
 
 void vtkNURBSMapper::ProcessSelectorPixelBuffers(

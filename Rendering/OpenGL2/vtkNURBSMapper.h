@@ -45,6 +45,7 @@ class vtkDataObject;
 class vtkOpenGLRenderWindow;
 class vtkScalarsToColors;
 class vtkShaderProgram;
+class vtkUnstructuredGrid;
 
 class VTKNURBSRENDERINGOPENGL2_EXPORT vtkNURBSMapper : public vtkOpenGLPolyDataMapper
 {
@@ -200,12 +201,20 @@ public:
   ///@{
   /**
    * Colour of the faces that the mapper's selection names (vtkMapper::SetSelection): nodes of cells by
-   * indices, in a composite input with the block's COMPOSITE_INDEX. Default (1, 0, 1). Not where
-   * triangles of vtkNURBSTessellator are drawn instead.
+   * indices, in a composite input with the block's COMPOSITE_INDEX, of several processes with the
+   * PROCESS_ID. Default (1, 0, 1). Not where triangles of vtkNURBSTessellator are drawn instead.
    */
   vtkSetVector3Macro(SelectedColor, double);
   vtkGetVector3Macro(SelectedColor, double);
   ///@}
+
+  /**
+   * Tells in a model's field data where it comes from, for inputs that were put together of others,
+   * and by other processes: its flat index in the composite there (0: it was in none), and the process
+   * that has it (-1: the one that draws). Selections name faces by these, instead of their place in
+   * the input.
+   */
+  static void SetOrigin(vtkUnstructuredGrid* model, unsigned int flatIndex, int process);
 
   ///@{
   /**

@@ -120,7 +120,8 @@ std::string vtkNURBSMapper::GetDefines(vtkActor* actor)
   return defines;
 }
 
-// Passes of a hardware selection that ask what was hit: the cell, and the block of a composite.
+// Passes of a hardware selection that ask what was hit: the cell, the block of a composite, and the
+// process that has it, if that is not the one that draws.
 void vtkNURBSMapper::ReplaceSelection(std::string& fragment)
 {
   std::string value;
@@ -134,6 +135,14 @@ void vtkNURBSMapper::ReplaceSelection(std::string& fragment)
       break;
     case vtkHardwareSelector::COMPOSITE_INDEX_PASS:
       value = "nurbsIds().y";
+      break;
+    case vtkHardwareSelector::PROCESS_PASS:
+      if (this->Content->Model.GetLeaves().empty() ||
+        this->Content->Model.GetLeaves().front().Process < 0)
+      {
+        return;
+      }
+      value = "nurbsIds().z";
       break;
     default:
       return;

@@ -62,6 +62,7 @@ source = simple.NURBSShapeSource(Shape="Car Body", NumberOfPatches=PATCHES)
 steps = [("deal", source)]
 mesh = simple.NURBSTessellator(Input=source, Tolerance=1e-4)
 steps.append(("tessellate", mesh))
+steps.append(("silhouettes", simple.NURBSSilhouette(Input=source, Direction=[1, 1, 1])))
 if sys.argv[3:] == ["regions"]:
     steps.append(("regions", simple.NURBSVisibleRegions(Input=source, Direction=[1, 1, 1])))
 for name, proxy in steps:

@@ -8,6 +8,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiPieceDataSet.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNURBSMapper.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
@@ -72,9 +73,14 @@ int vtkNURBSModelBlocks::RequestData(
 {
   auto* input = vtkDataObject::GetData(inputs[0]);
   auto* output = vtkMultiBlockDataSet::GetData(outputs);
-  const auto shared = [](vtkDataObject* grid) {
+  // Representations update us for what they have, without a word of pieces.
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  const bool parted = all && all->GetNumberOfProcesses() > 1;
+  const int rank = parted ? all->GetLocalProcessId() : -1;
+  const auto shared = [rank](vtkDataObject* grid, unsigned int flatIndex) {
     vtkNew<vtkUnstructuredGrid> copy;
     copy->ShallowCopy(grid);
+    vtkNURBSMapper::SetOrigin(copy, flatIndex, rank);
     return copy;
   };
   if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
@@ -86,22 +92,20 @@ int vtkNURBSModelBlocks::RequestData(
     {
       if (vtkUnstructuredGrid::SafeDownCast(leaf->GetCurrentDataObject()))
       {
-        output->SetDataSet(leaf, shared(leaf->GetCurrentDataObject()));
+        output->SetDataSet(leaf, shared(leaf->GetCurrentDataObject(), leaf->GetCurrentFlatIndex()));
       }
     }
   }
   else if (vtkUnstructuredGrid::SafeDownCast(input))
   {
-    output->SetBlock(0, shared(input));
+    output->SetBlock(0, shared(input, 0));
     vtkNew<vtkIntArray> mark;
     mark->SetName(SingleBlock());
     output->GetFieldData()->AddArray(mark);
   }
-  // Representations update us for what they have, without a word of pieces.
-  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
-  if (all && all->GetNumberOfProcesses() > 1)
+  if (parted)
   {
-    SeatPieces(output, unsigned(all->GetLocalProcessId()), unsigned(all->GetNumberOfProcesses()));
+    SeatPieces(output, unsigned(rank), unsigned(all->GetNumberOfProcesses()));
   }
   return 1;
 }

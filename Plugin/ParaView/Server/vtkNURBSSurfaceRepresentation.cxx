@@ -2,6 +2,7 @@
 #include "vtkNURBSSurfaceRepresentation.h"
 
 #include "vtkAlgorithmOutput.h"
+#include "vtkCellArray.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataDisplayAttributes.h"
@@ -147,8 +148,15 @@ struct Labels : vtkDataLabelRepresentation
   }
 };
 
-// The cells of a selection as something that ParaView delivers: a point (flat index of the block, or
-// -1; index of the cell; 0) each. Selected points are no faces.
+// The number of this process among several that have data, or -1.
+int OwnProcess()
+{
+  vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+  return all && all->GetNumberOfProcesses() > 1 ? all->GetLocalProcessId() : -1;
+}
+
+// The cells of a selection as something that ParaView delivers, from all processes: a point (flat index
+// of the block, or -1; index of the cell; process) each. Selected points are no faces.
 vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
 {
   vtkNew<vtkPoints> points;
@@ -168,11 +176,17 @@ vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
     const int last = ids ? ids->GetNumberOfComponents() - 1 : 0;
     for (vtkIdType id = 0; ids && id < ids->GetNumberOfTuples(); ++id)
     {
-      points->InsertNextPoint(block, ids->GetComponent(id, last), 0.0);
+      points->InsertNextPoint(block, ids->GetComponent(id, last), OwnProcess());
     }
   }
   auto packed = vtkSmartPointer<vtkPolyData>::New();
   packed->SetPoints(points);
+  vtkNew<vtkCellArray> vertices; // Points that no cell uses get lost on the way.
+  for (vtkIdType n = 0; n < points->GetNumberOfPoints(); ++n)
+  {
+    vertices->InsertNextCell(1, &n);
+  }
+  packed->SetVerts(vertices);
   return packed;
 }
 
@@ -180,17 +194,18 @@ vtkSmartPointer<vtkPolyData> PackedSelection(vtkSelection* selection)
 vtkSmartPointer<vtkSelection> UnpackedSelection(vtkPolyData* packed)
 {
   auto selection = vtkSmartPointer<vtkSelection>::New();
-  std::map<int, vtkSmartPointer<vtkIdTypeArray>> blocks;
+  std::map<std::pair<int, int>, vtkSmartPointer<vtkIdTypeArray>> blocks;
   for (vtkIdType n = 0; packed && n < packed->GetNumberOfPoints(); ++n)
   {
     double row[3];
     packed->GetPoint(n, row);
-    auto& ids = blocks[static_cast<int>(row[0])];
+    auto& ids = blocks[{ static_cast<int>(row[0]), static_cast<int>(row[2]) }];
     ids = ids ? ids : vtkSmartPointer<vtkIdTypeArray>::New();
     ids->InsertNextValue(static_cast<vtkIdType>(row[1]));
   }
-  for (const auto& [block, ids] : blocks)
+  for (const auto& [place, ids] : blocks)
   {
+    const auto [block, process] = place;
     vtkNew<vtkSelectionNode> node;
     node->SetContentType(vtkSelectionNode::INDICES);
     node->SetFieldType(vtkSelectionNode::CELL);
@@ -199,6 +214,7 @@ vtkSmartPointer<vtkSelection> UnpackedSelection(vtkPolyData* packed)
     {
       node->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), block);
     }
+    node->GetProperties()->Set(vtkSelectionNode::PROCESS_ID(), process);
     selection->AddNode(node);
   }
   return selection;
@@ -356,13 +372,20 @@ vtkSmartPointer<vtkSelection> vtkNURBSSurfaceRepresentation::FindSelectedFaces()
       origin ? vtkPVExtractSelection::SafeDownCast(origin->GetProducer()) : nullptr;
     if (extraction && OriginOf(extraction) == input)
     {
-      extraction->Update();
+      // For this process's piece, as its own representation does: without a word it would be for all.
+      vtkMultiProcessController* all = vtkMultiProcessController::GetGlobalController();
+      extraction->UpdatePiece(
+        all ? all->GetLocalProcessId() : 0, all ? all->GetNumberOfProcesses() : 1, 0);
       auto* faces = vtkSelection::SafeDownCast(
         extraction->GetOutputDataObject(vtkPVExtractSelection::OUTPUT_PORT_SELECTION_IDS));
       this->FoundTimes.push_back(faces->GetMTime());
       for (unsigned int n = 0; n < faces->GetNumberOfNodes(); ++n)
       {
-        selection->AddNode(faces->GetNode(n));
+        // What is found here is of this process, whichever it was looked for in.
+        vtkNew<vtkSelectionNode> own;
+        own->ShallowCopy(faces->GetNode(n));
+        own->GetProperties()->Set(vtkSelectionNode::PROCESS_ID(), OwnProcess());
+        selection->AddNode(own);
       }
     }
   }

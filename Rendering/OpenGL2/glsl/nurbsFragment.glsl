@@ -1,7 +1,7 @@
 // What a fragment knows of its face, and what becomes of it.
 
 uniform samplerBuffer nurbsFaceLooks;  // two texels a surface, see vtkNURBSFaceLooks
-uniform isamplerBuffer nurbsFaceIds;   // cell and block of a surface
+uniform isamplerBuffer nurbsFaceIds;   // cell, block and process of a surface
 flat in int nurbsTileIndex;
 in vec2 nurbsT;
 in vec3 nurbsNormalMC;
@@ -198,9 +198,9 @@ void nurbsBeginFragment()
 #endif
 }
 
-ivec2 nurbsIds()
+ivec3 nurbsIds()
 {
-  return texelFetch(nurbsFaceIds, nurbsFaceTile.surface).xy;
+  return texelFetch(nurbsFaceIds, nurbsFaceTile.surface).xyz;
 }
 
 //NURBS::Look::Dec

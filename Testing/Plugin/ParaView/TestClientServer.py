@@ -75,21 +75,25 @@ try:
     print("drawn by the client and by the server: %d pixels differ" % differ)
     assert differ < 20
 
-    # A selected face has its colour, whoever draws, and loses it; not yet where several processes
-    # serve (Documentation/Guide/Parallel.md, Limits).
-    if "mpirun" in sys.argv[3]:
-        print("selected faces are not looked at: several processes do not colour them")
-    else:
-        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-        there = selected("remote-selected-there.png")
-        view.RemoteRenderThreshold = 1000.0
-        here = selected("remote-selected-here.png")
-        print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
-        assert there.sum() > 800 and (here != there).sum() < 20
-        simple.ClearSelection(reader)
-        assert not selected("remote-unselected.png").any()
-        simple.SelectSurfaceCells(Rectangle=[100, 100, 100, 100], View=view)
-        assert (selected("remote-again.png") != here).sum() < 20
+    # A selected face has its colour, whoever draws, and loses it. Of several processes, each has a face
+    # that is selected; the numbers of these in their pieces are the same.
+    middle = [100, 100, 100, 100]
+    everywhere = [0, 0, 199, 149]
+    simple.SelectSurfaceCells(Rectangle=middle, View=view)
+    there = selected("remote-selected-there.png")
+    view.RemoteRenderThreshold = 1000.0
+    here = selected("remote-selected-here.png")
+    print("selected: %d pixels by the client, %d by the server" % (here.sum(), there.sum()))
+    assert there.sum() > 800 and (here != there).sum() < 20
+    simple.ClearSelection(reader)
+    assert not selected("remote-unselected.png").any()
+    simple.SelectSurfaceCells(Rectangle=middle, View=view)
+    assert (selected("remote-again.png") != here).sum() < 20
+    for name in ("all-there", "all-here"):
+        view.RemoteRenderThreshold = 0.0 if name == "all-there" else 1000.0
+        simple.SelectSurfaceCells(Rectangle=everywhere, View=view)
+        assert selected("remote-%s.png" % name).sum() > 2 * here.sum()
+    simple.ClearSelection(reader)
     sizes = [p.GetDataInformation().GetMemorySize() for p in (reader, mesh)]
     print("%d KiB as surfaces, %d KiB as triangles within 1e-4" % tuple(sizes))
     assert sizes[0] < sizes[1]

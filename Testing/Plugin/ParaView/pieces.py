@@ -13,6 +13,7 @@ import os
 import sys
 
 from paraview import simple
+import vtknurbs  # for the methods of our classes
 from session import FILTERS, SCREW, leaves, load_plugin, path, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkIdList, vtkStringArray
@@ -114,8 +115,6 @@ found = {"cells": {}, "sides": {}, "figures": {}, "arrays": {}}
 def note(name, proxy):
     updated(proxy)
     for port in range(proxy.SMProxy.GetNumberOfOutputPorts()):
-        if name == "NURBSFreeFormDeformation" and port == 1:
-            continue  # the lattice
         label = "%s %d" % (name, port)
         digests = found["cells"].setdefault(label, [])
         for leaf in leaves(proxy, port):
@@ -143,6 +142,12 @@ if not sys.argv[4:]:
     # Chains of filters: what one makes of a piece the next one can use.
     moved = simple.NURBSFreeFormDeformation(Input=model, LatticeMoves=[1, 1, 1, 0.3, 0.0, 0.3])
     note("moved mesh", simple.NURBSTessellator(Input=moved))
+    # The lattice that one process has is for all, and edits that come before data wait for all.
+    lattice = simple.OutputPort(moved, 1)
+    note("moved again", simple.NURBSFreeFormDeformation(Input=model, Lattice=lattice))
+    edits = simple.NURBSControlPointEdits(Input=model)
+    assert edits.GetClientSideObject().MoveControlPoint(5, 0.1, 0.0, 0.0)
+    note("early edits", edits)
     seen = simple.NURBSVisibleRegions(Input=model, Direction=[1, 2, 3])
     note("seen mesh", simple.NURBSTessellator(Input=seen))
 with open(path("rank-%d.json" % controller.GetLocalProcessId()), "w") as file:
