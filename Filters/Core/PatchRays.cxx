@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchRays.h"
 
-#include "CellForest.h"
+#include "CellTrees.h"
 #include "Model.h"
 #include "PatchCutter.h"
 #include "PieceSearch.h"
@@ -134,7 +134,7 @@ void PatchRays::Measure(const Model& model, double& size, double& rounding)
     : 4e-15 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
-void PatchRays::Build(const Model& model, const CellForest& forest)
+void PatchRays::Build(const Model& model, const CellTrees& forest)
 {
   Measure(model, this->Size, this->Rounding);
   for (std::int32_t k = 0; k < forest.Count(); ++k)

@@ -20,7 +20,7 @@
 namespace nurbs
 {
 
-class CellForest;
+class CellTrees;
 class PatchCutter;
 struct Model;
 class TrimIndex;
@@ -70,7 +70,7 @@ public:
 
   /// Takes the patches only, of a forest that makes their cells when they are needed: its boxes become
   /// Boxes(), its bounds Bounds().
-  void Build(const Model& model, const CellForest& forest);
+  void Build(const Model& model, const CellTrees& forest);
   /// Diagonal of the box of all control points, as patches are cut for, and what evaluating may err by.
   static void Measure(const Model& model, double& size, double& rounding);
 
@@ -123,7 +123,7 @@ public:
 
 private:
   friend class PatchCutter;
-  friend class CellForest;
+  friend class CellTrees;
 
   struct Patch
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCaster.h"
 
-#include "CellForest.h"
+#include "CellTrees.h"
 #include "Model.h"
 
 #include <algorithm>
@@ -101,7 +101,7 @@ RayCaster::RayCaster(const Model& model, Cutting cutting, const ParallelFor& par
     double size, rounding;
     PatchRays::Measure(model, size, rounding);
     const auto forest =
-      std::make_shared<CellForest>(model, this->Trims, this->Reach, size, rounding, parallel);
+      std::make_shared<CellTrees>(model, this->Trims, this->Reach, size, rounding, parallel);
     this->Surfaces.Build(model, *forest);
     this->Forest = forest;
   }

@@ -134,7 +134,7 @@ private:
   const Model* Source;
   TrimIndex Trims;
   PatchRays Surfaces;
-  std::shared_ptr<const CellForest> Forest; ///< With WhenMet.
+  std::shared_ptr<const CellTrees> Forest; ///< With WhenMet.
   BoxTree Tree;
   std::vector<double> Tolerance; ///< A face's largest of its edges.
   std::vector<double> Reach;     ///< How far outside a face a hit may count.

@@ -36,8 +36,7 @@ public:
   /// @param traced the borders that were taken back from the image; they need not be simple. Where they
   /// are doubtful, what is beside shadows is looked at.
   /// @param hidden make SettledRegions::Hidden, too.
-  SettledRegions Settle(
-    std::int64_t face, const TracedRegion& traced, bool hidden) const;
+  SettledRegions Settle(std::int64_t face, const TracedRegion& traced, bool hidden) const;
 
   /// True if the face shows a point, given by its (u, v), to the viewer.
   bool IsSeen(std::int64_t face, const Vec2& uv) const;

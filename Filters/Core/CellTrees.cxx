@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellForest.h"
+#include "CellTrees.h"
 
 #include "Model.h"
 
@@ -74,7 +74,7 @@ Box3 BoxOfFace(const Model& model, const Face& face, double reach)
 
 } // namespace
 
-CellForest::CellForest(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+CellTrees::CellTrees(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
   double size, double rounding, const ParallelFor& parallel)
   : Source(model)
   , Trims(trims)
@@ -131,7 +131,7 @@ CellForest::CellForest(const Model& model, const TrimIndex& trims, const std::ve
   this->Bytes = this->Given.size() * (sizeof(BezierPatch) + sizeof(Box3) + sizeof(Slot));
 }
 
-CellForest::~CellForest()
+CellTrees::~CellTrees()
 {
   for (const Slot& root : this->Roots)
   {
@@ -139,7 +139,7 @@ CellForest::~CellForest()
   }
 }
 
-void CellForest::Slot::SetBounds(const Box3& box)
+void CellTrees::Slot::SetBounds(const Box3& box)
 {
   const float infinity = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis)
@@ -149,7 +149,7 @@ void CellForest::Slot::SetBounds(const Box3& box)
   }
 }
 
-void CellForest::Slot::SetVoid()
+void CellTrees::Slot::SetVoid()
 {
   const float infinity = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis)
@@ -159,7 +159,7 @@ void CellForest::Slot::SetVoid()
   }
 }
 
-void CellForest::Delete(Child child)
+void CellTrees::Delete(Child child)
 {
   if ((child & 3) == IsCell)
   {
@@ -179,7 +179,7 @@ void CellForest::Delete(Child child)
 }
 
 /// What becomes of a piece; its owner is locked.
-CellForest::Child CellForest::Judge(std::int32_t patch, CutPiece&& piece) const
+CellTrees::Child CellTrees::Judge(std::int32_t patch, CutPiece&& piece) const
 {
   const std::int32_t face = this->Faces[patch];
   const PatchCutter::Context context(
@@ -199,7 +199,7 @@ CellForest::Child CellForest::Judge(std::int32_t patch, CutPiece&& piece) const
 }
 
 /// Makes a branch of a piece, or judges a root and does so.
-CellForest::Child CellForest::Make(std::int32_t patch, Slot& slot) const
+CellTrees::Child CellTrees::Make(std::int32_t patch, Slot& slot) const
 {
   Owner& owner = this->Owners[this->Faces[patch]];
   const std::lock_guard<std::mutex> lock(owner.Lock);
@@ -251,7 +251,7 @@ CellForest::Child CellForest::Make(std::int32_t patch, Slot& slot) const
 
 /// The lowest (side 0) or highest coordinate of a cell's box; the pieces that may have it are cut,
 /// those that reach farthest first.
-double CellForest::Extreme(int axis, int side) const
+double CellTrees::Extreme(int axis, int side) const
 {
   struct Entry
   {
@@ -294,7 +294,7 @@ double CellForest::Extreme(int axis, int side) const
   return sign * (best + BoundsPart * this->Size);
 }
 
-Box3 CellForest::Bounds() const
+Box3 CellTrees::Bounds() const
 {
   Box3 box;
   for (int axis = 0; axis < 3; ++axis)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file CellForest.h
+/// @file CellTrees.h
 /// @brief The cells of patches, cut when a ray first comes near. Internal to PatchRays.
 ///
 /// A tree a patch, of the pieces that PatchCutter cuts it into: its leaves are the cells that would be
@@ -18,14 +18,14 @@ namespace nurbs
 {
 
 /// The trees of all patches. Rays may walk through them from many threads.
-class CellForest
+class CellTrees
 {
 public:
   /// Takes the patches of the model's faces, see PatchRays::Build; model and trims must outlive this.
   /// `size`: of the model, see PatchCutter; `rounding`: boxes are widened by four times that.
-  CellForest(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
+  CellTrees(const Model& model, const TrimIndex& trims, const std::vector<double>& reach,
     double size, double rounding, const ParallelFor& parallel);
-  ~CellForest();
+  ~CellTrees();
 
   std::int64_t Count() const { return static_cast<std::int64_t>(this->Given.size()); }
   /// A patch as it was given, by its index.
@@ -113,7 +113,7 @@ private:
   mutable std::atomic<std::size_t> Bytes{ 0 };
 };
 
-inline bool CellForest::IsMet(
+inline bool CellTrees::IsMet(
   const Slot& slot, const BoxRay& ray, double tMin, double tMax, double& entry)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -129,7 +129,7 @@ inline bool CellForest::IsMet(
 }
 
 template <typename Visit>
-void CellForest::Walk(
+void CellTrees::Walk(
   std::int32_t patch, const BoxRay& ray, double tMin, double& tMax, const Visit& visit) const
 {
   struct Waiting
