@@ -21,7 +21,6 @@ tessellator.Update()
 print(tessellator.GetNumberOfTriangles(), "triangles of", tessellator.GetNumberOfFaces(), "faces;",
       f"certified to {tessellator.GetCertifiedError():.6f} mm, asked for",
       f"{tessellator.GetToleranceUsed():.6f} mm")  # fmt: skip
-
 (mesh,) = vtknurbs.blocks(tessellator.GetOutputDataObject(0))
 edges = vtkFeatureEdges()  # of one triangle only: a closed solid's mesh has none
 edges.SetInputData(mesh)
@@ -33,6 +32,7 @@ print(edges.GetOutput().GetNumberOfCells(), "open edges")
 writer = vtkXMLPolyDataWriter()
 writer.SetInputData(mesh)
 writer.SetFileName("cad_to_mesh.vtp")
+writer.SetDataModeToBinary()
 writer.Write()
 actor = vtknurbs.make_actor(tessellator)
 actor.GetProperty().EdgeVisibilityOn()

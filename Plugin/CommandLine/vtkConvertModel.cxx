@@ -58,13 +58,13 @@ void WriteCAD(vtkDataObject* model, const Arguments& arguments, const ProgressFu
   report.EdgeTolerance = writer->GetEdgeTolerance();
 }
 
+// Data in line: the VTK of Debian's ParaView 5.11 reads no appended data since an update of expat.
 template <typename Writer>
 void WriteVTK(vtkDataObject* data, const std::string& path)
 {
   vtkNew<Writer> writer;
   writer->SetInputDataObject(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  writer->SetDataModeToBinary();
   writer->SetFileName(path.c_str());
   if (!writer->Write() || writer->GetErrorCode() != 0)
   {

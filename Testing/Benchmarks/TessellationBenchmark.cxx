@@ -289,8 +289,7 @@ nlohmann::json Run(const Arguments& a)
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetFileName(a.Output.c_str());
     writer->SetInputData(tessellator->GetOutputDataObject(0));
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    writer->SetDataModeToBinary();
     writer->SetCompressorTypeToNone();
     writer->Write();
   }

@@ -48,6 +48,7 @@ void Write(const std::vector<verify::HiddenLine>& lines, const std::string& file
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writer->SetFileName(file.c_str());
+  writer->SetDataModeToBinary();
   if (!writer->Write())
   {
     throw std::runtime_error(file + ": not writable");

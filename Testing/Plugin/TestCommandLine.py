@@ -302,6 +302,7 @@ class Tessellate(Folder):
         source = vtknurbs.vtkNURBSShapeSource()
         source.SetShapeToTorus()
         writer = vtkXMLUnstructuredGridWriter()
+        writer.SetDataModeToBinary()
         writer.SetInputConnection(source.GetOutputPort())
         model = self.folder / "torus.vtu"
         writer.SetFileName(str(model))
@@ -394,6 +395,7 @@ class Drawing(Folder):
         source = vtknurbs.vtkNURBSShapeSource()
         getattr(source, f"SetShapeTo{name}")()
         writer = vtkXMLUnstructuredGridWriter()
+        writer.SetDataModeToBinary()
         writer.SetInputConnection(source.GetOutputPort())
         model = self.folder / f"{name}.vtu"
         writer.SetFileName(str(model))

@@ -67,6 +67,7 @@ class Convert(Folder):
             x, y, z = grid.GetPoint(middle.GetId(i))
             grid.GetPoints().SetPoint(middle.GetId(i), x + 5.0, y, z)
         writer = vtkXMLUnstructuredGridWriter()
+        writer.SetDataModeToBinary()
         writer.SetInputData(grid)
         writer.SetFileName(str(path))
         writer.Write()

@@ -92,7 +92,7 @@ def source():
         return simple.GroupDatasets(Input=shapes)
     if SOURCE == "saved":
         name = path("saved.vtpc")
-        simple.SaveData(name, proxy=simple.OpenDataFile(SCREW))
+        simple.SaveData(name, proxy=simple.OpenDataFile(SCREW), DataMode="Binary")
         return simple.OpenDataFile(name)
     return simple.OpenDataFile(SOURCE)
 
