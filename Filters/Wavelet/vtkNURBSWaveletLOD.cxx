@@ -253,7 +253,12 @@ int vtkNURBSWaveletLOD::RequestData(
     this->UpdateProgress(1.0);
     return 1;
   }
-  this->Kept.reset();
+  // Meshing that is aborted leaves the analysis for the next time, where one process needs it alone.
+  if (outcome == vtkNURBSPieces::FAILED ||
+    (this->Kept && (this->Kept->Pieces.IsParallel() || this->Kept->Model->IsAborted())))
+  {
+    this->Kept.reset();
+  }
   this->ClearResults();
   vtkNURBSModelPool::CopyTree(input, output);
   if (outcome == vtkNURBSPieces::ABORTED)

@@ -17,7 +17,7 @@ def run(ranks):
     """What each of `ranks` processes has written."""
     folder = os.path.join(FOLDER, str(ranks))
     shutil.rmtree(folder, ignore_errors=True)
-    command = ["timeout", "200", MPIRUN, "--allow-run-as-root", "--oversubscribe"]
+    command = ["timeout", "420", MPIRUN, "--allow-run-as-root", "--oversubscribe"]
     command += ["-np", str(ranks), PVBATCH, "--symmetric", SCRIPT, PLUGIN, folder]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0 or "Traceback" in done.stdout:
