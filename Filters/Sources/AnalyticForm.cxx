@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticForm.h"
 
+#include "Bezier.h"
+
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
@@ -21,6 +23,9 @@ namespace
 constexpr double RoundOff = 1e-12; // of the largest coordinate
 constexpr double Straight = 1e-6;  // sine of an angle under which three points are on a line
 constexpr double Pi = 3.14159265358979323846;
+// Of the minor radius: the major one of a torus. Less is a sphere, in a piece so narrow that its
+// axis is not certain.
+constexpr double LeastMajor = 1e-3;
 constexpr int StepsASpan = 8;
 
 gp_Pnt ToPoint(const Vec3& p)
@@ -67,6 +72,87 @@ std::optional<CircleFit> CircleThrough(const Vec3& p0, const Vec3& p1, const Vec
   const Vec3 c =
     (a.squaredNorm() * b.cross(n) + b.squaredNorm() * n.cross(a)) / (2.0 * n.squaredNorm());
   return CircleFit{ p0 + c, n.normalized(), c.norm() };
+}
+
+/// A polynomial of u and v: Bernstein coefficients times their binomials, so that products are sums
+/// over equal indices (Farin, Curves and Surfaces for CAGD, section 6.5).
+struct ScaledPolynomial
+{
+  Eigen::ArrayXXd Of; ///< Row: index in u.
+
+  ScaledPolynomial operator*(const ScaledPolynomial& other) const
+  {
+    ScaledPolynomial product{ Eigen::ArrayXXd::Zero(
+      this->Of.rows() + other.Of.rows() - 1, this->Of.cols() + other.Of.cols() - 1) };
+    for (Eigen::Index j = 0; j < this->Of.cols(); ++j)
+    {
+      for (Eigen::Index i = 0; i < this->Of.rows(); ++i)
+      {
+        product.Of.block(i, j, other.Of.rows(), other.Of.cols()) += this->Of(i, j) * other.Of;
+      }
+    }
+    return product;
+  }
+};
+
+/// C(n, 0) ... C(n, n).
+Eigen::ArrayXd Binomials(Eigen::Index n)
+{
+  Eigen::ArrayXd row = Eigen::ArrayXd::Ones(n + 1);
+  for (Eigen::Index k = 1; k <= n; ++k)
+  {
+    row[k] = row[k - 1] * double(n - k + 1) / double(k);
+  }
+  return row;
+}
+
+ScaledPolynomial Scaled(const Eigen::ArrayXXd& coefficients)
+{
+  const Eigen::ArrayXd u = Binomials(coefficients.rows() - 1),
+                       v = Binomials(coefficients.cols() - 1);
+  return { coefficients * (u.matrix() * v.matrix().transpose()).array() };
+}
+
+/// 1 or -1 if a patch in the plane z = 0 has a Jacobian of one sign for sure, 0 at most at some
+/// places of its boundary: if all Bernstein coefficients of the numerator, det(H, Hu, Hv) with the
+/// homogeneous (x, y, w) = H, have it. 0: it may fold.
+int SideOf(const BezierPatch& patch, const std::function<Vec3(const Vec4&)>& flat)
+{
+  const Eigen::Index m = patch.Degree[0], n = patch.Degree[1];
+  if (m < 1 || n < 1)
+  {
+    return 0;
+  }
+  ScaledPolynomial h[3], hu[3], hv[3];
+  Eigen::ArrayXXd net[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    net[k].resize(m + 1, n + 1);
+  }
+  for (Eigen::Index i = 0; i < net[0].size(); ++i)
+  {
+    const Vec3 point = flat(patch.Points[i]);
+    for (int k = 0; k < 3; ++k)
+    {
+      net[k](i) = point[k];
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    h[k] = Scaled(net[k]);
+    hu[k] = Scaled(net[k].bottomRows(m) - net[k].topRows(m));
+    hv[k] = Scaled(net[k].rightCols(n) - net[k].leftCols(n));
+  }
+  Eigen::ArrayXXd jacobian = Eigen::ArrayXXd::Zero(3 * m, 3 * n);
+  for (int k = 0; k < 3; ++k)
+  {
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    jacobian += (h[k] * ScaledPolynomial{ (hu[a] * hv[b]).Of - (hu[b] * hv[a]).Of }).Of;
+  }
+  jacobian /= Scaled(Eigen::ArrayXXd::Ones(3 * m, 3 * n)).Of;
+  const double low = jacobian.minCoeff(), high = jacobian.maxCoeff();
+  const double none = RoundOff * std::max(-low, high);
+  return (low >= -none && high > none ? 1 : 0) - (high <= none && low < -none ? 1 : 0);
 }
 
 } // namespace
@@ -155,26 +241,27 @@ bool AnalyticSurface::FindPlane()
       return false;
     }
   }
-  constexpr int Steps = 4;
-  int turned = 0;
-  for (int k = 0; k < Steps * Steps; ++k)
+  const Vec3 across = z.cross(x.normalized());
+  const double size = x.norm();
+  int turned = 0, sides = 0;
+  for (const BezierPatch& patch : ToBezier(this->View))
   {
-    const SurfaceDerivatives d =
-      EvaluateDerivatives(this->View, u.Min + u.Length() * (k % Steps + 0.5) / Steps,
-        v.Min + v.Length() * (k / Steps + 0.5) / Steps, 1);
-    const double side = d.Su.cross(d.Sv).dot(z);
-    turned += side < 0.0 ? 1 : 0;
-    turned += side == 0.0 ? Steps * Steps : 0;
+    const int side = SideOf(patch, [&](const Vec4& p) {
+      const Vec3 from = (this->Scale * p.head<3>() - p[3] * start) / size;
+      return Vec3(from.dot(x) / size, from.dot(across), p[3]);
+    });
+    turned += side;
+    ++sides;
   }
-  if (turned != 0 && turned != Steps * Steps)
+  if (std::abs(turned) != sides)
   {
-    return false; // It folds.
+    return false; // It folds, or may.
   }
   const Vec3 side = this->Scale * Evaluate(this->View, u.Max, v.Min) - start;
   x = side.norm() > 1e-3 * x.norm() ? side : x;
   this->Kind = Shape::Plane;
   this->Origin = start;
-  this->Z = turned == 0 ? z : Vec3(-z);
+  this->Z = turned > 0 ? z : Vec3(-z);
   this->X = (x - x.dot(z) * z).normalized();
   return true;
 }
@@ -265,7 +352,9 @@ bool AnalyticSurface::FindProfile()
       this->X = -this->X;
       this->Y = -this->Y;
     }
-    return round || std::abs(this->Radius - this->Minor) > 1e-6 * this->Minor;
+    return round ||
+      (this->Radius > LeastMajor * this->Minor &&
+        std::abs(this->Radius - this->Minor) > 1e-6 * this->Minor);
   }
   const Vec2 line = s - p;
   if (std::abs(line[1]) <= this->Near || std::min(p[0], s[0]) < -this->Near)
@@ -356,6 +445,13 @@ bool AnalyticSurface::HoldsEverywhere()
       values[k].push_back(
         k == 0 ? this->Turn.Unwrap(place, this->Angle(place)) : this->Across(place));
     }
+  }
+  // Beyond a pole a meridian is on the other side of the axis, where no latitude leads.
+  if (this->Kind == Shape::Sphere &&
+    std::any_of(places[1].begin(), places[1].end(),
+      [this](double place) { return this->Profile(place)[0] < -this->Near; }))
+  {
+    return false;
   }
   for (std::size_t i = 0; i < places[0].size(); ++i)
   {

@@ -3,12 +3,15 @@
 /// @brief Planes, cylinders, cones, spheres and tori among NURBS surfaces; lines and circles among curves.
 ///
 /// A surface or curve is taken for one if it is one but for round-off: 1e-12 of its largest coordinate.
-/// Planes are told by the control points, in whose convex hull the surface is. The others are told by
-/// samples: a surface of degrees p, q put into the equation of a quadric has a numerator of degrees 2p,
+/// Planes are told by the control points, in whose convex hull the surface is; a patch that may fold
+/// in its plane, as far as the Bernstein coefficients of its Jacobian tell, is none. The others are
+/// told by samples: a surface of degrees p, q put into the equation of a quadric has a numerator of degrees 2p,
 /// 2q in every patch (4p, 4q for a torus), so it is on it everywhere if it is at 2p + 1 by 2q + 1 (4p + 1
 /// by 4q + 1) places. Besides, its lines in one direction must be circles about the axis: then the
 /// angle is a function of one parameter and the other parameter of the analytic surface of the other,
-/// and trim curves along u or v stay straight.
+/// and trim curves along u or v stay straight. Meridians of spheres end at a pole at the latest, and
+/// a torus has a major radius of 0.001 of its minor one at least: what is nearer to a sphere is a
+/// piece of one, so narrow that its axis is not certain, and stays what it is.
 #pragma once
 
 #include "Curve.h"

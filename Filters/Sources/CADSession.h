@@ -3,6 +3,8 @@
 /// @brief What reading and writing with OpenCASCADE's data exchange share: turns, silence, progress.
 #pragma once
 
+#include "Types.h"
+
 #include <Message_ProgressIndicator.hxx>
 #include <Message_SequenceOfPrinters.hxx>
 #include <Standard_Failure.hxx>
@@ -58,6 +60,21 @@ Handle(TDocStd_Document) NewCADDocument();
 
 /// OpenCASCADE's message, or the kind of failure if it has none.
 std::string ReasonOf(const Standard_Failure& failure);
+
+/// What the call returns. Where OpenCASCADE throws, which is no std::exception, throws Error:
+/// "OpenCASCADE fails `doing`: reason".
+template <class Call>
+auto WithoutFailures(const char* doing, const Call& call)
+{
+  try
+  {
+    return call();
+  }
+  catch (const Standard_Failure& failure)
+  {
+    throw Error(std::string("OpenCASCADE fails ") + doing + ": " + ReasonOf(failure));
+  }
+}
 
 /// A unit of length.
 struct CADUnit

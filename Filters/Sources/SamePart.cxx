@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SamePart.h"
 
+#include "CADSession.h"
+
 #include <BRepBuilderAPI_Transform.hxx>
 #include <Eigen/Geometry>
 #include <TopoDS.hxx>
@@ -8,6 +10,7 @@
 #include <gp_Trsf.hxx>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nurbs
 {
@@ -89,7 +92,33 @@ Eigen::Matrix3Xd PointsOf(const Model& model)
     points.empty() ? nullptr : points.front().data(), 3, static_cast<Eigen::Index>(points.size()));
 }
 
+/// Of edges whose curve both models know. Models that were moved have lost the curves, and with them
+/// what is stated of the edges.
+double ToleranceDifference(const Model& a, const Model& b)
+{
+  double difference = 0.0;
+  for (std::size_t e = 0; e < a.Edges.size(); ++e)
+  {
+    if (a.Edges[e].Geometry.Count > 0 && b.Edges[e].Geometry.Count > 0)
+    {
+      difference = std::max(difference, std::abs(a.Edges[e].Tolerance - b.Edges[e].Tolerance));
+    }
+  }
+  return difference;
+}
+
 } // namespace
+
+double MeanRadius(const Model& model)
+{
+  const Eigen::Matrix3Xd points = PointsOf(model);
+  if (points.cols() == 0)
+  {
+    return 0.0;
+  }
+  const Vec3 center = points.rowwise().mean();
+  return std::sqrt((points.colwise() - center).colwise().squaredNorm().mean());
+}
 
 std::optional<Placement> MotionBetween(const Model& from, const Model& to)
 {
@@ -103,12 +132,16 @@ std::optional<Placement> MotionBetween(const Model& from, const Model& to)
   {
     return std::nullopt;
   }
+  const double near = RoundOff * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  if (!(ToleranceDifference(from, to) <= near))
+  {
+    return std::nullopt;
+  }
   const Eigen::Matrix4d motion = Eigen::umeyama(a, b, false);
   Placement placement;
   placement.Linear = motion.topLeftCorner<3, 3>();
   placement.Shift = motion.topRightCorner<3, 1>();
   const Eigen::Matrix3Xd off = (placement.Linear * a).colwise() + placement.Shift - b;
-  const double near = RoundOff * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
   return off.colwise().norm().maxCoeff() <= near ? std::optional<Placement>(placement)
                                                  : std::nullopt;
 }
@@ -124,12 +157,14 @@ TopLoc_Location ToLocation(const Placement& motion)
 
 void MovePart(const Placement& motion, CADPart& part)
 {
-  BRepBuilderAPI_Transform moved(part.Shape, ToLocation(motion).Transformation(), Standard_True);
-  part.Shape = moved.Shape();
-  for (TopoDS_Face& face : part.Faces)
-  {
-    face = TopoDS::Face(moved.ModifiedShape(face));
-  }
+  WithoutFailures("to move a part", [&] {
+    BRepBuilderAPI_Transform moved(part.Shape, ToLocation(motion).Transformation(), Standard_True);
+    part.Shape = moved.Shape();
+    for (TopoDS_Face& face : part.Faces)
+    {
+      face = TopoDS::Face(moved.ModifiedShape(face));
+    }
+  });
 }
 
 } // namespace nurbs

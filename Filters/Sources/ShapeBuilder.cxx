@@ -188,7 +188,6 @@ void ShapeMaker::FindForms()
     if (this->Forms[f])
     {
       this->Surfaces[f] = this->Forms[f]->GetGeometry();
-      ++this->Result.AnalyticFaces;
     }
   }
   for (std::size_t e = 0; e < edges.size(); ++e)
@@ -475,6 +474,7 @@ void ShapeMaker::TryFace(std::size_t f)
       this->Result.FaceOf.push_back(static_cast<std::int64_t>(f));
     }
     this->Result.SplitFaces += pieces.size() > 1;
+    this->Result.AnalyticFaces += this->Forms[f].has_value();
   }
   catch (const Error& error)
   {
@@ -626,20 +626,6 @@ std::vector<ShapeFault> FindFaults(const BuiltShape& built)
     }
   }
   return faults;
-}
-
-/// What OpenCASCADE throws is no std::exception.
-template <class Call>
-auto WithoutFailures(const char* doing, const Call& call)
-{
-  try
-  {
-    return call();
-  }
-  catch (const Standard_Failure& failure)
-  {
-    throw Error(std::string("OpenCASCADE fails ") + doing + ": " + ReasonOf(failure));
-  }
 }
 
 } // namespace

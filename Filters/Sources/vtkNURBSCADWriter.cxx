@@ -20,16 +20,20 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 vtkStandardNewMacro(vtkNURBSCADWriter);
 
 namespace
 {
 
-constexpr double BuildPart = 0.6;     // of the progress
+constexpr double FindPart = 0.05;     // of the progress: until copies are found
+constexpr double BuildPart = 0.6;     // until all shapes are built
 constexpr std::size_t MostFaces = 10; // that a warning names
+constexpr double SameRadius = 1e-11;  // of the largest coordinate: of what may be the same part
 
 std::string LowerEnding(const char* path)
 {
@@ -91,15 +95,19 @@ struct vtkNURBSCADWriter::Work
   vtkIdType Instances = 0;
 
   bool IsCopy(std::size_t block) const { return this->Copies[block].Of != block; }
-  void FindCopies();
+  void FindCopies(const std::function<bool(double)>& progress);
   void PlaceCopies(const std::vector<std::int64_t>& parts);
 };
 
-// Blocks that are one part, moved: equal in all that is told of them.
-void vtkNURBSCADWriter::Work::FindCopies()
+// Blocks that are one part, moved: equal in all that is told of them. Those of one name and size are
+// sorted by a radius that motions do not change, so that only such are compared that may be.
+// `progress` gets the part done and returns false to stop.
+void vtkNURBSCADWriter::Work::FindCopies(const std::function<bool(double)>& progress)
 {
-  std::multimap<std::pair<vtkIdType, vtkIdType>, std::size_t> known;
-  for (std::size_t i = 0; i < this->Blocks.size(); ++i)
+  using Key = std::tuple<std::string, double, vtkIdType, vtkIdType, double>;
+  std::multimap<Key, std::size_t> known;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < this->Blocks.size() && progress(double(i) / this->Blocks.size()); ++i)
   {
     vtkUnstructuredGrid* grid = this->Blocks[i].Grid;
     this->Views.push_back(vtkNURBSModel::View(grid));
@@ -113,18 +121,25 @@ void vtkNURBSCADWriter::Work::FindCopies()
     }
     this->Parts.emplace_back();
     vtkNURBSCADTree::DescribeFaces(grid, cells, this->Parts[i]);
-    if (!whole)
+    const double radius = nurbs::MeanRadius(this->Views[i]->GetModel());
+    if (!whole || !std::isfinite(radius))
     {
       continue; // What is wrong with it is told of each.
     }
-    const auto key = std::make_pair(grid->GetNumberOfCells(), grid->GetNumberOfPoints());
-    const auto [first, last] = known.equal_range(key);
-    for (auto it = first; it != last && !this->IsCopy(i); ++it)
+    for (int k = 0; k < 6; ++k)
+    {
+      largest = std::max(largest, std::abs(grid->GetBounds()[k]));
+    }
+    const auto key = [&](double r) {
+      return Key(this->Blocks[i].Name, this->Scales[i], grid->GetNumberOfCells(),
+        grid->GetNumberOfPoints(), r);
+    };
+    const auto last = known.upper_bound(key(radius + SameRadius * largest));
+    for (auto it = known.lower_bound(key(radius - SameRadius * largest));
+         it != last && !this->IsCopy(i); ++it)
     {
       const std::size_t k = it->second;
-      const auto motion = this->Scales[k] == this->Scales[i] &&
-          this->Blocks[k].Name == this->Blocks[i].Name &&
-          this->Parts[k].FaceNames == this->Parts[i].FaceNames &&
+      const auto motion = this->Parts[k].FaceNames == this->Parts[i].FaceNames &&
           this->Parts[k].Colors == this->Parts[i].Colors
         ? nurbs::MotionBetween(this->Views[k]->GetModel(), this->Views[i]->GetModel())
         : std::nullopt;
@@ -135,7 +150,7 @@ void vtkNURBSCADWriter::Work::FindCopies()
     }
     if (!this->IsCopy(i))
     {
-      known.emplace(key, i);
+      known.emplace(key(radius), i);
     }
   }
 }
@@ -279,7 +294,7 @@ bool vtkNURBSCADWriter::FindUnits(Work& work)
 bool vtkNURBSCADWriter::Build(Work& work)
 {
   std::atomic<bool> abort{ false };
-  double progress = 0.0, end = 0.0;
+  double progress = FindPart, end = FindPart;
   const nurbs::ParallelFor parallel = [&](std::int64_t first, std::int64_t last, const auto& body) {
     // In pieces, so that an abort is heard.
     const std::int64_t piece = std::max<std::int64_t>(64, (last - first) / 16);
@@ -296,7 +311,11 @@ bool vtkNURBSCADWriter::Build(Work& work)
   options.CurveTolerance = this->CurveTolerance;
   options.Gap = this->Gap;
   options.Analytic = this->AnalyticSurfaces;
-  work.FindCopies();
+  work.FindCopies([&](double done) {
+    this->UpdateProgress(FindPart * done);
+    abort = this->GetAbortExecute() != 0;
+    return !abort;
+  });
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < work.Blocks.size() && !abort; ++i)
   {
@@ -304,17 +323,19 @@ bool vtkNURBSCADWriter::Build(Work& work)
     if (work.IsCopy(i))
     {
       work.Shapes.push_back(work.Shapes[work.Copies[i].Of]);
-      continue;
     }
-    end = BuildPart * double(i + 1) / double(work.Blocks.size());
-    options.Scale = work.Scales[i];
-    const auto& view = work.Views[i];
-    std::vector<std::string> errors;
-    for (vtkIdType cell = 0; cell < block.Grid->GetNumberOfCells(); ++cell)
+    else
     {
-      errors.push_back(view->GetFaceError(cell));
+      end = FindPart + (BuildPart - FindPart) * double(i + 1) / double(work.Blocks.size());
+      options.Scale = work.Scales[i];
+      const auto& view = work.Views[i];
+      std::vector<std::string> errors;
+      for (vtkIdType cell = 0; cell < block.Grid->GetNumberOfCells(); ++cell)
+      {
+        errors.push_back(view->GetFaceError(cell));
+      }
+      work.Shapes.push_back(nurbs::BuildShape(view->GetModel(), errors, options, parallel, abort));
     }
-    work.Shapes.push_back(nurbs::BuildShape(view->GetModel(), errors, options, parallel, abort));
     const std::vector<std::string>& found = work.Shapes.back().FaceErrors;
     for (std::size_t f = 0; f < found.size(); ++f)
     {
@@ -349,6 +370,7 @@ bool vtkNURBSCADWriter::Build(Work& work)
 void vtkNURBSCADWriter::CheckShapes(const Work& work)
 {
   std::vector<std::string> faults;
+  std::vector<std::vector<nurbs::ShapeFault>> found(work.Shapes.size()); // Of each, and its copies.
   vtkIdType torn = 0;
   for (std::size_t i = 0; i < work.Shapes.size(); ++i)
   {
@@ -363,8 +385,11 @@ void vtkNURBSCADWriter::CheckShapes(const Work& work)
     this->NumberOfComputedEdges += shape.ComputedEdges;
     this->EdgeTolerance = std::max(this->EdgeTolerance, shape.EdgeTolerance / work.Scales[i]);
     torn += shape.TornEdges;
-    for (const nurbs::ShapeFault& fault :
-      this->Check && !work.IsCopy(i) ? nurbs::CheckShape(shape) : std::vector<nurbs::ShapeFault>())
+    if (this->Check && !work.IsCopy(i))
+    {
+      found[i] = nurbs::CheckShape(shape);
+    }
+    for (const nurbs::ShapeFault& fault : found[work.Copies[i].Of])
     {
       this->NumberOfInvalidFaces += fault.Face >= 0 ? 1 : 0;
       faults.push_back(fault.Face >= 0
@@ -402,10 +427,10 @@ bool vtkNURBSCADWriter::Save(Work& work)
     }
   }
   vtkNURBSCADTree::MakeNodes(work.Input, work.Blocks, parts, stem, work.Content);
-  work.PlaceCopies(parts);
-  this->NumberOfInstances = work.Instances;
   try
   {
+    work.PlaceCopies(parts);
+    this->NumberOfInstances = work.Instances;
     nurbs::SaveCADFile(work.Content, work.Format, this->FileName, [this](double done) {
       this->UpdateProgress(BuildPart + (1.0 - BuildPart) * done);
       return !this->GetAbortExecute();

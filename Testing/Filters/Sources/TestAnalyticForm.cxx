@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of OpenCASCADE made NURBS, and recognised again.
+// Surfaces of OpenCASCADE made NURBS, and recognised again; parts that are the same.
 #include "AnalyticForm.h"
 #include "CurveConverter.h"
+#include "SamePart.h"
 #include "SurfaceConverter.h"
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <Eigen/Geometry>
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TopoDS.hxx>
+#include <gp_Pln.hxx>
 
 #include <gtest/gtest.h>
 
@@ -204,6 +211,52 @@ TEST(AnalyticForm, PatchesThatFoldInAPlaneStayPatches)
   ASSERT_TRUE(AnalyticSurface::Recognise(patch.View(), 1.0));
   patch.Points[3] = { 0.2, -2.0, 1.0 };
   EXPECT_FALSE(AnalyticSurface::Recognise(patch.View(), 1.0));
+  // Over so small a part of the domain that samples miss it: the Jacobian is negative at one corner.
+  patch.Points = { { 3.9, 3.9, 0 }, { 7, 0, 0 }, { 0, 7, 0 }, { 7, 7, 0 } };
+  EXPECT_FALSE(AnalyticSurface::Recognise(patch.View(), 1.0));
+  patch.Points[0] = { 3.1, 3.1, 0 };
+  EXPECT_TRUE(AnalyticSurface::Recognise(patch.View(), 1.0));
+  // The Jacobian is 0 at one of 4 by 4 places in the middle of cells.
+  patch.Points[0] = { 4, 4, 0 };
+  EXPECT_FALSE(AnalyticSurface::Recognise(patch.View(), 1.0));
+}
+
+TEST(AnalyticForm, CornersAndRowsWithoutANormalMakeNoFold)
+{
+  // A triangle, as a patch with a side that is a point, and a disc, whose corners are flat.
+  Surface patch;
+  patch.Count[0] = patch.Count[1] = 2;
+  patch.Knots[0] = patch.Knots[1] = { 0.0, 0.0, 1.0, 1.0 };
+  patch.Points = { { 0, 0, 1 }, { 1, 0, 1 }, { 0.3, 0.7, 1 }, { 0.3, 0.7, 1 } };
+  EXPECT_TRUE(AnalyticSurface::Recognise(patch.View(), 1.0));
+  const double w = std::sqrt(0.5);
+  patch.Degree[0] = patch.Degree[1] = 2;
+  patch.Count[0] = patch.Count[1] = 3;
+  patch.Knots[0] = patch.Knots[1] = { 0.0, 0.0, 0.0, 1.0, 1.0, 1.0 };
+  patch.Points = { { -w, -w, 0 }, { 0, -2 * w, 0 }, { w, -w, 0 }, { -2 * w, 0, 0 }, { 0, 0, 0 },
+    { 2 * w, 0, 0 }, { -w, w, 0 }, { 0, 2 * w, 0 }, { w, w, 0 } };
+  patch.Weights = { 1, w, 1, w, 1, w, 1, w, 1 };
+  ExpectRecognised(patch, new Geom_Plane(gp_Ax3()), 1.0);
+  ExpectRecognised(Backwards(patch), new Geom_Plane(gp_Ax3()), 1.0);
+}
+
+TEST(AnalyticForm, MeridiansThatPassAPoleStayPatches)
+{
+  // Half a circle from the equator over the pole, and less than that, turned by half a turn: no
+  // latitude is beyond a pole.
+  for (const auto& [from, to] : { std::pair(0.0, Pi), std::pair(1.0, 2.0), std::pair(0.2, 1.8) })
+  {
+    SCOPED_TRACE(from);
+    const Handle(Geom_Circle) meridian =
+      new Geom_Circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, -1, 0), gp_Dir(1, 0, 0)), 5.0);
+    const Handle(Geom_TrimmedCurve) half = new Geom_TrimmedCurve(meridian, from, to);
+    double error = 0.0;
+    const Surface surface = SurfaceConverter(new Geom_SurfaceOfRevolution(half, gp_Ax1()), 1e-7)
+                              .Convert({ 0.0, Pi }, { from, to }, error);
+    ASSERT_LT(error, 1e-7);
+    EXPECT_FALSE(AnalyticSurface::Recognise(surface.View(), 1.0));
+    EXPECT_FALSE(AnalyticSurface::Recognise(Transposed(surface).View(), 1.0));
+  }
 }
 
 TEST(AnalyticForm, LinesAndCirclesAreRecognised)
@@ -232,4 +285,43 @@ TEST(AnalyticForm, LinesAndCirclesAreRecognised)
       EXPECT_EQ(RecogniseCurve(bent.View(), 1.0).has_value(), curve.Points.size() == 2);
     }
   }
+}
+
+TEST(SamePart, AFaceOfNoPartIsAnErrorNotACrash)
+{
+  const auto face = [](double x) {
+    return TopoDS::Face(
+      BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1))), 0, 1, 0, 1).Face());
+  };
+  CADPart part;
+  part.Shape = face(0.0);
+  part.Faces = { TopoDS::Face(part.Shape) };
+  Placement motion;
+  motion.Shift = { 0.0, 5.0, 0.0 };
+  MovePart(motion, part);
+  EXPECT_TRUE(part.Faces[0].IsSame(part.Shape));
+  part.Faces.push_back(face(3.0));
+  EXPECT_THROW(MovePart(motion, part), Error);
+}
+
+TEST(SamePart, MotionsDoNotChangeTheMeanRadius)
+{
+  Surface patch;
+  patch.Count[0] = patch.Count[1] = 2;
+  patch.Knots[0] = patch.Knots[1] = { 0.0, 0.0, 1.0, 1.0 };
+  patch.Points = { { 0, 0, 1 }, { 4, 0, 1 }, { 0, 2, 1 }, { 4, 2, 1 } };
+  Surface moved = patch;
+  const Eigen::AngleAxisd turn(0.7, Vec3(1.0, -2.0, 0.5).normalized());
+  for (Vec3& p : moved.Points)
+  {
+    p = turn * p + Vec3(1e3, -20.0, 3.0);
+  }
+  Model a, b;
+  a.Faces.push_back({ patch.View() });
+  b.Faces.push_back({ moved.View() });
+  EXPECT_DOUBLE_EQ(MeanRadius(a), std::sqrt(5.0)) << "all corners are as far from the centre";
+  EXPECT_NEAR(MeanRadius(b), std::sqrt(5.0), 1e-12);
+  EXPECT_EQ(MeanRadius(Model()), 0.0);
+  ASSERT_TRUE(MotionBetween(a, b));
+  EXPECT_NEAR(MotionBetween(a, b)->Shift[0], 1e3, 1e-10);
 }

@@ -2,8 +2,10 @@
 // Planes stay planes and instances stay instances when models are written.
 #include "testCADWriting.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkDataAssembly.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
@@ -21,6 +23,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 namespace
@@ -71,6 +74,17 @@ void Transform(vtkUnstructuredGrid* model, const std::function<nurbs::Vec3(nurbs
 }
 
 } // namespace
+/// All of an object's messages, one a line.
+class AllMessages : public vtkCommand
+{
+public:
+  static AllMessages* New() { return new AllMessages; }
+  void Execute(vtkObject*, unsigned long, void* text) override
+  {
+    this->Text += std::string(static_cast<const char*>(text)) + "\n";
+  }
+  std::string Text;
+};
 
 TEST(CADForms, SurfacesOfAFileStayWhatTheyWere)
 {
@@ -233,5 +247,102 @@ TEST(CADInstances, NodesOfDifferentNamesAreSeveral)
     auto* own = vtkUnstructuredGrid::SafeDownCast(screws->GetPartition(i, 0));
     ExpectModelFaces(own, ReadShape(Write(models[i], "one.brep")), { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 },
       2e-4 * own->GetLength());
+  }
+}
+
+TEST(CADInstances, EdgesOfOtherTolerancesMakeOtherParts)
+{
+  const Grids models = { TwoPatches(0.0), TwoPatches(0.0), TwoPatches(0.0) };
+  auto* tolerances = models[2]->GetFieldData()->GetArray("EdgeTolerance");
+  ASSERT_NE(tolerances, nullptr);
+  tolerances->SetComponent(0, 0, 0.01);
+  vtkNew<vtkNURBSCADWriter> writer;
+  Write(writer, Blocks(models), "tolerances.step");
+  EXPECT_EQ(writer->GetNumberOfInstances(), 1);
+}
+
+TEST(CADInstances, FaultsAreToldOfEach)
+{
+  nurbs::Surface broken = Patch(0.0); // In the middle: two pieces with a gap.
+  broken.Count[0] = 4;
+  broken.Knots[0] = { 0.0, 0.0, 0.5, 0.5, 1.0, 1.0 };
+  broken.Points = { { 0, 0, 0 }, { 0.4, 0, 0 }, { 0.6, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 },
+    { 0.4, 1, 0 }, { 0.6, 1, 0 }, { 1, 1, 0 } };
+  Grids models;
+  for (int i = 0; i < 3; ++i)
+  {
+    nurbs::ModelBuilder builder;
+    builder.BeginFace(broken.View(), nurbs::FaceAttributes());
+    AddFace(builder, Patch(2.0), { { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } }); // It crosses itself.
+    models.push_back(Store(builder));
+    Transform(models.back(),
+      [i](const nurbs::Vec3& p) -> nurbs::Vec3 { return p + nurbs::Vec3(0.0, 3.0 * i, i); });
+  }
+  vtkNew<vtkNURBSCADWriter> writer;
+  vtkNew<AllMessages> warnings;
+  writer->AddObserver(vtkCommand::WarningEvent, warnings);
+  Write(writer, Blocks(models), "faults.step");
+  EXPECT_EQ(writer->GetNumberOfInstances(), 2);
+  EXPECT_EQ(writer->GetNumberOfFaces(), 3);
+  EXPECT_EQ(writer->GetNumberOfFailedFaces(), 3);
+  EXPECT_EQ(writer->GetNumberOfInvalidFaces(), 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::string block = "block " + std::to_string(i) + " (part): cell ";
+    EXPECT_NE(warnings->Text.find(block + "0"), std::string::npos) << warnings->Text;
+    EXPECT_NE(warnings->Text.find(block + "1"), std::string::npos) << warnings->Text;
+  }
+}
+
+TEST(CADInstances, TheSearchForCopiesTellsHowFarItIsAndStops)
+{
+  Grids models;
+  for (int i = 0; i < 60; ++i)
+  {
+    nurbs::ModelBuilder builder;
+    builder.BeginFace(Patch(0.0).View(), nurbs::FaceAttributes());
+    models.push_back(Store(builder));
+    Transform(models.back(),
+      [i](const nurbs::Vec3& p) -> nurbs::Vec3 { return (1.0 + 0.01 * (i / 2)) * p; });
+  }
+  const auto blocks = Blocks(models);
+  struct Watcher
+  {
+    double StopAt;
+    std::vector<double> Seen;
+  };
+  for (const double stopAt : { 0.01, 2.0 })
+  {
+    Listened listened;
+    Watcher watcher{ stopAt, {} };
+    vtkNew<vtkCallbackCommand> watch;
+    watch->SetClientData(&watcher);
+    watch->SetCallback([](vtkObject* caller, unsigned long, void* client, void* amount) {
+      auto* own = static_cast<Watcher*>(client);
+      own->Seen.push_back(*static_cast<const double*>(amount));
+      if (own->Seen.back() >= own->StopAt)
+      {
+        static_cast<vtkNURBSCADWriter*>(caller)->SetAbortExecute(1);
+      }
+    });
+    listened.Writer->AddObserver(vtkCommand::ProgressEvent, watch);
+    listened.Writer->SetInputDataObject(blocks);
+    listened.Writer->SetFileName(OutputPath("plates.step").c_str());
+    EXPECT_EQ(listened.Writer->Write(), stopAt < 1.0 ? 0 : 1);
+    EXPECT_EQ(listened.Errors->Text, "");
+    EXPECT_TRUE(std::is_sorted(watcher.Seen.begin(), watcher.Seen.end()));
+    const auto before = std::count_if(
+      watcher.Seen.begin(), watcher.Seen.end(), [](double part) { return part <= 0.05; });
+    if (stopAt < 1.0)
+    {
+      EXPECT_LT(before, 20) << "It went on.";
+      EXPECT_LE(watcher.Seen.size(), static_cast<std::size_t>(before) + 1)
+        << "1 is told at the end.";
+    }
+    else
+    {
+      EXPECT_GE(before, 60) << "One a block.";
+      EXPECT_EQ(listened.Writer->GetNumberOfInstances(), 30);
+    }
   }
 }

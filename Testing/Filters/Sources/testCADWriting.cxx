@@ -4,6 +4,7 @@
 #include "ModelFaceCheck.h"
 
 #include "vtkCellData.h"
+#include "vtkInformation.h"
 #include "vtkStringArray.h"
 
 #include <BRepGProp.hxx>
@@ -21,6 +22,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace
@@ -191,6 +193,86 @@ nurbs::Surface Patch(double x, double z)
   patch.Knots[0] = patch.Knots[1] = { 0.0, 0.0, 1.0, 1.0 };
   patch.Points = { { x, 0, z }, { x + 1, 0, z }, { x, 1, z }, { x + 1, 1, z } };
   return patch;
+}
+
+namespace
+{
+
+/// Of a circle of radius 1, (x, y, weight).
+std::vector<nurbs::Vec3> ArcPoints(nurbs::Interval angles, int spans)
+{
+  const double half = 0.5 * angles.Length() / spans;
+  std::vector<nurbs::Vec3> points;
+  for (int i = 0; i <= 2 * spans; ++i)
+  {
+    const double weight = i % 2 == 0 ? 1.0 : std::cos(half), angle = angles.Min + i * half;
+    points.emplace_back(std::cos(angle) / weight, std::sin(angle) / weight, weight);
+  }
+  return points;
+}
+
+} // namespace
+
+nurbs::Surface BallPatch(double radius, nurbs::Interval u, nurbs::Interval v, int spans)
+{
+  nurbs::Surface patch;
+  for (int dir = 0; dir < 2; ++dir)
+  {
+    patch.Degree[dir] = 2;
+    patch.Count[dir] = 2 * spans + 1;
+    patch.Knots[dir] = { 0.0 };
+    for (int k = 0; k <= spans; ++k)
+    {
+      patch.Knots[dir].insert(patch.Knots[dir].end(), 2, k);
+    }
+    patch.Knots[dir].push_back(spans);
+  }
+  for (const nurbs::Vec3& meridian : ArcPoints(v, spans))
+  {
+    for (const nurbs::Vec3& parallel : ArcPoints(u, spans))
+    {
+      patch.Points.push_back(
+        radius * nurbs::Vec3(meridian[0] * parallel[0], meridian[0] * parallel[1], meridian[1]));
+      patch.Weights.push_back(meridian[2] * parallel[2]);
+    }
+  }
+  return patch;
+}
+
+void AddSide(
+  nurbs::ModelBuilder& builder, const std::vector<nurbs::Vec2>& points, std::int64_t edge)
+{
+  nurbs::Curve<2> side;
+  side.Degree = static_cast<int>(points.size()) - 1;
+  side.Knots.assign(points.size(), 0.0);
+  side.Knots.insert(side.Knots.end(), points.size(), 1.0);
+  side.Points = points;
+  side.Weights.assign(points.size(), 1.0);
+  side.Pack();
+  builder.AddTrimCurve(side.View(), edge, false);
+}
+
+void AddFace(nurbs::ModelBuilder& builder, const nurbs::Surface& surface,
+  const std::vector<nurbs::Vec2>& corners)
+{
+  builder.BeginFace(surface.View(), nurbs::FaceAttributes());
+  builder.BeginLoop();
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    AddSide(builder, { corners[k], corners[(k + 1) % corners.size()] });
+  }
+}
+
+vtkSmartPointer<vtkPartitionedDataSetCollection> Blocks(const Grids& models)
+{
+  auto all = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+  all->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(models.size()));
+  for (unsigned int i = 0; i < models.size(); ++i)
+  {
+    all->SetPartition(i, 0, models[i]);
+    all->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), "part");
+  }
+  return all;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> TwoPatches(double gap)

@@ -51,8 +51,23 @@ vtkSmartPointer<vtkUnstructuredGrid> Store(nurbs::ModelBuilder& builder);
 /// A flat patch from (x, 0) to (x + 1, 1) of degree 1.
 nurbs::Surface Patch(double x, double z = 0.0);
 
+/// A part of the ball about the origin: longitudes u and latitudes v, in spans of degree 2;
+/// latitudes beyond a pole are on the other side of it.
+nurbs::Surface BallPatch(double radius, nurbs::Interval u, nurbs::Interval v, int spans = 1);
+
+/// The next side of the loop: a Bezier curve.
+void AddSide(
+  nurbs::ModelBuilder& builder, const std::vector<nurbs::Vec2>& points, std::int64_t edge = -1);
+
+/// A face in the loop through these (u, v).
+void AddFace(nurbs::ModelBuilder& builder, const nurbs::Surface& surface,
+  const std::vector<nurbs::Vec2>& corners);
+
 /// Two patches side by side that share the edge x = 1, the second one lifted by `gap`.
 vtkSmartPointer<vtkUnstructuredGrid> TwoPatches(double gap);
+
+/// Blocks of one name, in the order given.
+vtkSmartPointer<vtkPartitionedDataSetCollection> Blocks(const Grids& models);
 
 /// A writer whose messages are kept.
 class Listened
