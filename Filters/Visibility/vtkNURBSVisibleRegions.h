@@ -45,7 +45,8 @@
  * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.
  *
  * What is the same from every view (the surfaces as rays see them, the curves in which faces pierce each
- * other) is kept for the next update, until the input or the precision changes.
+ * other) is kept for the next update, until the input or the precision changes. Arrays whose numbers are
+ * changed in place (as by numpy) have to be told so by Modified(), as everywhere in VTK.
  *
  * Source: X. Ruan, H. Zhang, J. Yong, "Visible region extraction from a sequence of rational Bezier
  * surfaces", Journal of Zhejiang University SCIENCE A 7 (2006), section 4. What is done differently and
