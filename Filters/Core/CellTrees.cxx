@@ -14,8 +14,8 @@ namespace nurbs
 namespace
 {
 
-/// What bounds may be too large by, as a part of the size.
-constexpr double BoundsPart = 1e-9;
+/// What bounds may be too large by, as a part of the size: the rounding of floats.
+constexpr double BoundsPart = 1e-7;
 
 /// The float beyond x in the direction of `limit`.
 float RoundTo(double x, float limit)
@@ -119,14 +119,21 @@ CellTrees::CellTrees(const Model& model, const TrimIndex& trims, const std::vect
   {
     throw Error("PatchRays: more than 2^31 patches or cells");
   }
+  Box3 all;
+  for (const Box3& box : this->PatchBoxes)
+  {
+    all.extend(box);
+  }
+  if (!all.isEmpty())
+  {
+    this->Middle = all.center();
+    this->Unit = all.sizes().maxCoeff() > 0.0 ? all.sizes().maxCoeff() : 1.0;
+  }
   this->Roots = std::vector<Slot>(this->Given.size());
   for (std::size_t k = 0; k < this->Roots.size(); ++k)
   {
-    Box3 box = this->PatchBoxes[k];
-    box.min().array() -= this->Margin;
-    box.max().array() += this->Margin;
     this->Roots[k].Content = IsPiece;
-    this->Roots[k].SetBounds(box);
+    this->Roots[k].SetBounds(this->Relative(this->PatchBoxes[k]));
   }
   this->Bytes = this->Given.size() * (sizeof(BezierPatch) + sizeof(Box3) + sizeof(Slot));
 }
@@ -139,13 +146,22 @@ CellTrees::~CellTrees()
   }
 }
 
-void CellTrees::Slot::SetBounds(const Box3& box)
+/// The box, widened by the margin, as slots have it.
+Box3 CellTrees::Relative(const Box3& box) const
+{
+  const Vec3 margin = Vec3::Constant(this->Margin);
+  return { (box.min() - margin - this->Middle) / this->Unit,
+    (box.max() + margin - this->Middle) / this->Unit };
+}
+
+void CellTrees::Slot::SetBounds(const Box3& relative)
 {
   const float infinity = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Bounds[0][axis].store(RoundTo(box.min()[axis], -infinity), std::memory_order_relaxed);
-    this->Bounds[1][axis].store(RoundTo(box.max()[axis], infinity), std::memory_order_relaxed);
+    this->Bounds[0][axis].store(
+      RoundTo(relative.min()[axis], -infinity), std::memory_order_relaxed);
+    this->Bounds[1][axis].store(RoundTo(relative.max()[axis], infinity), std::memory_order_relaxed);
   }
 }
 
@@ -213,20 +229,19 @@ CellTrees::Child CellTrees::Make(std::int32_t patch, Slot& slot) const
         std::make_unique<CoverTest>(this->Source, this->Source.Faces[face], this->Trims.Face(face));
     }
     now = this->Judge(patch, PatchCutter::Whole(this->Given[patch]));
+    slot.Content.store(now, std::memory_order_release);
   }
   if ((now & 3) == IsPiece)
   {
-    const std::unique_ptr<CutPiece> piece(const_cast<CutPiece*>(As<CutPiece>(now)));
     CutPiece halves[2];
-    PatchCutter::Halve(*piece, halves[0], halves[1]);
-    auto branch = std::make_unique<Branch>();
+    PatchCutter::Halve(*const_cast<CutPiece*>(As<CutPiece>(now)), halves[0], halves[1]);
+    const auto discard = [](Branch* b) { Delete(reinterpret_cast<Child>(b) | IsBranch); };
+    std::unique_ptr<Branch, decltype(discard)> branch(new Branch, discard);
     Box3 whole;
     for (int k = 0; k < 2; ++k)
     {
       Slot& half = branch->Halves[k];
-      Box3 box = halves[k].Box();
-      box.min().array() -= this->Margin;
-      box.max().array() += this->Margin;
+      const Box3 box = this->Relative(halves[k].Box());
       half.Content = this->Judge(patch, std::move(halves[k]));
       if (half.Content == Nothing)
       {
@@ -243,9 +258,11 @@ CellTrees::Child CellTrees::Make(std::int32_t patch, Slot& slot) const
       slot.SetBounds(whole);
     }
     this->Bytes += sizeof(Branch);
+    const Child piece = now;
     now = reinterpret_cast<Child>(branch.release()) | IsBranch;
+    slot.Content.store(now, std::memory_order_release);
+    Delete(piece);
   }
-  slot.Content.store(now, std::memory_order_release);
   return now;
 }
 
@@ -273,7 +290,7 @@ double CellTrees::Extreme(int axis, int side) const
     queue.push({ sign * root.Bound(side, axis), 0, std::int32_t(k), &root });
   }
   double best = -std::numeric_limits<double>::infinity();
-  while (!queue.empty() && queue.top().Reached > best + BoundsPart * this->Size)
+  while (!queue.empty() && queue.top().Reached > best + BoundsPart)
   {
     const Entry top = queue.top();
     queue.pop();
@@ -291,7 +308,7 @@ double CellTrees::Extreme(int axis, int side) const
       }
     }
   }
-  return sign * (best + BoundsPart * this->Size);
+  return this->Middle[axis] + sign * (best + BoundsPart) * this->Unit;
 }
 
 Box3 CellTrees::Bounds() const

@@ -34,7 +34,7 @@ public:
   /// Of a patch's control points.
   const std::vector<Box3>& Boxes() const { return this->PatchBoxes; }
 
-  /// The box of the control points of all cells, a bit larger. Cuts what it needs.
+  /// The box of the control points of all cells, larger by up to 3e-7 of its size. Cuts what it needs.
   Box3 Bounds() const;
 
   /// Calls `visit(cell)` for the cells of a patch whose boxes the ray meets between tMin and tMax,
@@ -43,7 +43,7 @@ public:
   void Walk(
     std::int32_t patch, const BoxRay& ray, double tMin, double& tMax, const Visit& visit) const;
 
-  /// Bytes occupied by now.
+  /// Bytes of patches, boxes, cells and branches by now.
   std::size_t MemoryUse() const { return this->Bytes; }
 
 private:
@@ -56,7 +56,8 @@ private:
     IsBranch = 2,
     IsPiece = 3 ///< A CutPiece to be halved; of a root, without a pointer: the patch, not judged.
   };
-  /// A child and a box around what is left of it, which becomes smaller as more of it is made.
+  /// A child and a box around what is left of it, which becomes smaller as more of it is made. Boxes are
+  /// relative to Middle, in units of Unit, so that their precision is of the model's size, wherever it is.
   struct Slot
   {
     std::atomic<Child> Content{ Nothing };
@@ -68,7 +69,7 @@ private:
       return this->Bounds[side][axis].load(std::memory_order_relaxed);
     }
     bool IsVoid() const { return this->Bound(0, 0) > this->Bound(1, 0); }
-    void SetBounds(const Box3& box);
+    void SetBounds(const Box3& relative);
     void SetVoid();
   };
   /// Fills a line of the cache.
@@ -97,6 +98,7 @@ private:
   Child Make(std::int32_t patch, Slot& slot) const;
   Child Judge(std::int32_t patch, CutPiece&& piece) const;
   double Extreme(int axis, int side) const;
+  Box3 Relative(const Box3& box) const;
   static void Delete(Child child);
   static bool IsMet(const Slot& slot, const BoxRay& ray, double tMin, double tMax, double& entry);
 
@@ -105,6 +107,8 @@ private:
   std::vector<double> Reach;
   double Size;
   double Margin;
+  Vec3 Middle = Vec3::Zero();      ///< Of all patches' boxes.
+  double Unit = 1.0;               ///< The largest side of all of them together.
   std::vector<BezierPatch> Given;  ///< By face.
   std::vector<std::int32_t> Faces; ///< One a patch.
   std::vector<Box3> PatchBoxes;
@@ -137,11 +141,14 @@ void CellTrees::Walk(
     Slot* At;
     double Entry;
   };
+  BoxRay relative = ray;
+  relative.Origin = (ray.Origin - this->Middle) / this->Unit;
+  relative.Inverse = ray.Inverse * this->Unit;
   // One waits at each depth.
   Waiting stack[PatchCutter::MaxHalvings + 3];
   int size = 0;
   double start;
-  if (IsMet(this->Roots[patch], ray, tMin, tMax, start))
+  if (IsMet(this->Roots[patch], relative, tMin, tMax, start))
   {
     stack[size++] = { &this->Roots[patch], start };
   }
@@ -161,8 +168,8 @@ void CellTrees::Walk(
     {
       Slot* const halves = As<Branch>(child)->Halves;
       double entry[2];
-      const bool met[2] = { IsMet(halves[0], ray, tMin, tMax, entry[0]),
-        IsMet(halves[1], ray, tMin, tMax, entry[1]) };
+      const bool met[2] = { IsMet(halves[0], relative, tMin, tMax, entry[0]),
+        IsMet(halves[1], relative, tMin, tMax, entry[1]) };
       const int first = met[1] && (!met[0] || entry[1] < entry[0]) ? 1 : 0;
       for (const int k : { 1 - first, first })
       {

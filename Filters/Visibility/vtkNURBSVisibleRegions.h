@@ -41,11 +41,13 @@
  * of the map are told in one warning and by NumberOfPiercingPairs: the border between their regions is
  * not exact there. Of faces that lie on each other, within a billionth of the model's size, the first one
  * is seen. Faces that can't be used hide nothing, and are named in one warning with those whose
- * silhouettes have gaps. A view that is not valid, or an input without NURBS arrays, is an error. Work is spread by vtkSMPTools, the result does not depend on the number of
- * threads. Reports progress and obeys AbortExecute, which leaves the outputs empty.
+ * silhouettes have gaps. A view that is not valid, or an input without NURBS arrays, is an error. Work is
+ * spread by vtkSMPTools, the result does not depend on the number of threads. Reports progress and obeys
+ * AbortExecute, which leaves the outputs empty.
  *
  * What is the same from every view (the surfaces as rays see them, the curves in which faces pierce each
- * other) is kept for the next update, until the input or the precision changes.
+ * other) is kept for the next update, until the input or the precision changes. Arrays whose numbers are
+ * changed in place (as by numpy) have to be told so by Modified(), as everywhere in VTK.
  *
  * Source: X. Ruan, H. Zhang, J. Yong, "Visible region extraction from a sequence of rational Bezier
  * surfaces", Journal of Zhejiang University SCIENCE A 7 (2006), section 4. What is done differently and

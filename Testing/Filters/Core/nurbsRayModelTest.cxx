@@ -248,6 +248,42 @@ TEST(RayModel, CutsWhereRaysComeNear)
   }
 }
 
+// The precision of boxes is of the model's size, wherever it is.
+TEST(RayModel, CutsFarFromTheOrigin)
+{
+  reference::Random random(23);
+  for (const double scale : { 1.0, 1e-20, 1e20 })
+  {
+    for (const Vec3& shift : { Vec3(0, 0, 0), Vec3(5e6, 0, 0), Vec3(-1e5, 2e7, 3.0) })
+    {
+      Surface torus = reference::Torus(1.0, 0.35);
+      for (Vec3& point : torus.Points)
+      {
+        point = scale * (point + shift);
+      }
+      const Shape shape({ torus });
+      const RayCaster caster(shape.Content, RayCaster::Cutting::WhenMet);
+      const Box3 box = caster.Bounds();
+      EXPECT_NEAR(box.sizes()[0], 2.7 * scale, 3e-6 * scale);
+      EXPECT_NEAR(box.sizes()[2], 0.7 * scale, 3e-6 * scale);
+      EXPECT_LT((box.center() - scale * shift).norm(), 3e-6 * scale);
+      // Lines along z within the ring, where the torus's circle is known.
+      for (int i = 0; i < 100; ++i)
+      {
+        const double angle = random.Uniform(0.0, 6.0), radius = random.Uniform(0.7, 1.3);
+        const Vec3 from(radius * std::cos(angle), radius * std::sin(angle), 2.0);
+        Ray ray;
+        ray.Origin = scale * (from + shift);
+        ray.Direction = Vec3(0, 0, -1);
+        RayHit hit;
+        ASSERT_TRUE(caster.Nearest(ray, hit));
+        const double height = std::sqrt(0.35 * 0.35 - (radius - 1.0) * (radius - 1.0));
+        EXPECT_NEAR(hit.Point[2] / scale - shift[2], height, 1e-6);
+      }
+    }
+  }
+}
+
 TEST(RayModel, CutsForManyThreads)
 {
   const Shape shape({ reference::Torus(1.0, 0.35) });
