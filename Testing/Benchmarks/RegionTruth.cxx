@@ -72,6 +72,7 @@ void Merge(const RegionCheck& part, RegionCheck& all, std::size_t list)
   all.Near += part.Near;
   all.Wrong += part.Wrong;
   all.Coincident += part.Coincident;
+  all.Bridged += part.Bridged;
   all.MissedFaces += part.MissedFaces;
   all.Worst = std::max(all.Worst, part.Worst);
   for (std::size_t k = 0; k < part.List.size() && all.List.size() < list; ++k)
@@ -330,9 +331,11 @@ void RegionTruth::Judge(
     ++check.Narrow;
     return;
   }
-  if (this->IsBridged(hit, front) || this->IsCoincident(hit))
+  const bool isCoincident = this->IsCoincident(hit);
+  if (isCoincident || this->IsBridged(hit, front))
   {
     ++check.Coincident;
+    check.Bridged += isCoincident ? 0 : 1;
     return;
   }
   ++(distance <= 10.0 * this->Precision ? check.Near : check.Wrong);

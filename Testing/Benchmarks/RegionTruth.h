@@ -66,6 +66,7 @@ struct RegionCheck
   /// that the edges' tolerance bridges (RayCaster.h), where no region can reach; or is as near to a border
   /// as twice the tolerance of the edges of its face, or of the face in front, and the precision.
   std::int64_t Coincident = 0;
+  std::int64_t Bridged = 0;     ///< The part of Coincident that only edges' tolerances explain.
   std::int64_t MissedFaces = 0; ///< Wrong hits on faces that have no region at all.
   double Worst = 0.0; ///< The largest finite distance of a disagreement, over the precision.
   std::vector<Disagreement> List; ///< Of Near and Wrong, some.

@@ -203,8 +203,8 @@ private:
       static_cast<std::int64_t>(this->Given.Rays), static_cast<std::size_t>(this->Given.List));
     result.update({ { "regions", sources.size() }, { "rays", check.Rays }, { "hits", check.Hits },
       { "agree", check.Agree }, { "within", check.Within }, { "narrow", check.Narrow },
-      { "coincident", check.Coincident }, { "near", check.Near }, { "wrong", check.Wrong },
-      { "missed", check.MissedFaces }, { "worst", check.Worst },
+      { "coincident", check.Coincident }, { "bridged", check.Bridged }, { "near", check.Near },
+      { "wrong", check.Wrong }, { "missed", check.MissedFaces }, { "worst", check.Worst },
       { "checking", watch.Read().Elapsed } });
     for (const truth::Disagreement& one : check.List)
     {
@@ -247,8 +247,8 @@ private:
       : this->Given.Shape;
     std::printf("%-24s", model.c_str());
     for (const char* key : { "eye", "view", "faces", "regions", "seconds", "piercing", "inexact",
-           "rays", "hits", "agree", "within", "narrow", "coincident", "near", "wrong", "missed",
-           "worst", "checking", "area", "area_by_rays", "area_coarse", "area_off" })
+           "rays", "hits", "agree", "within", "narrow", "coincident", "bridged", "near", "wrong",
+           "missed", "worst", "checking", "area", "area_by_rays", "area_coarse", "area_off" })
     {
       if (result.contains(key))
       {

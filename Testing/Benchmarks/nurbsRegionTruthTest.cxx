@@ -24,29 +24,36 @@ struct Scene
   nurbs::RayCaster Caster;
 };
 
-/// The unit square at a height, trimmed to from <= x <= upTo.
-void AddPlate(nurbs::ModelBuilder& builder, double z, double from = 0.0, double upTo = 1.0)
+/// The unit square at a height, trimmed to from <= x <= upTo; its edges have that tolerance.
+void AddPlate(nurbs::ModelBuilder& builder, double z, double from = 0.0, double upTo = 1.0,
+  double tolerance = 0.0)
 {
   nurbs::Surface plane;
   plane.Count[0] = plane.Count[1] = 2;
   plane.Knots[0] = plane.Knots[1] = { 0, 0, 1, 1 };
   plane.Points = { Vec3(0, 0, z), Vec3(1, 0, z), Vec3(0, 1, z), Vec3(1, 1, z) };
+  std::int64_t edges[4];
+  for (std::int64_t& edge : edges)
+  {
+    edge = tolerance > 0.0 ? builder.AddUnknownEdge(tolerance, -1, -1) : -1;
+  }
   builder.BeginFace(plane.View(), nurbs::FaceAttributes());
   builder.BeginLoop();
   const Vec2 corners[5] = { { from, 0 }, { upTo, 0 }, { upTo, 1 }, { from, 1 }, { from, 0 } };
   for (int k = 0; k < 4; ++k)
   {
-    builder.AddTrimCurve(nurbs::TrimLine(corners[k], corners[k + 1], { 0, 1 }).View(), -1, false);
+    builder.AddTrimCurve(
+      nurbs::TrimLine(corners[k], corners[k + 1], { 0, 1 }).View(), edges[k], false);
   }
 }
 
 /// Claims that the lower plate is visible up to `cut`, or hidden from there on.
-truth::RegionCheck CheckPlates(double cut, double precision, bool areHidden)
+truth::RegionCheck CheckPlates(double cut, double precision, bool areHidden, double tolerance = 0.0)
 {
   // Seen from above at 45 degrees, the upper plate hides x > 0.5 of the lower one.
   nurbs::ModelBuilder source, regions;
-  AddPlate(source, 0.0);
-  AddPlate(source, 0.5);
+  AddPlate(source, 0.0, 0.0, 1.0, tolerance);
+  AddPlate(source, 0.5, 0.0, 1.0, tolerance);
   AddPlate(regions, 0.0, areHidden ? cut : 0.0, areHidden ? 1.0 : cut);
   std::vector<std::int64_t> sources{ 0 };
   if (!areHidden)
@@ -93,6 +100,22 @@ TEST(RegionTruth, AgreesWithRightRegionsOnly)
   EXPECT_EQ(excused.Wrong + excused.Near, 0);
   EXPECT_EQ(excused.Within, wrong.Wrong + wrong.Near + wrong.Narrow + wrong.Within);
   EXPECT_GT(wrong.Narrow, 0); // Beside the upper plate's border.
+}
+
+// What edges' tolerances explain is no farther from a border than twice that; the rest stays wrong.
+TEST(RegionTruth, TolerancesExplainNoMoreThanTheyReach)
+{
+  const truth::RegionCheck exact = CheckPlates(0.51, 1e-4, false);
+  EXPECT_EQ(exact.Bridged, 0);
+  const double tolerance = 1e-3;
+  const truth::RegionCheck some = CheckPlates(0.51, 1e-4, false, tolerance);
+  // The strip, 0.01 / sqrt(2) wide in the image, within 2 tolerances and the precision of either side.
+  const double share = 2.0 * (2.0 * tolerance + 1e-4) / (0.01 * std::sqrt(0.5));
+  EXPECT_NEAR(some.Bridged / double(some.Bridged + some.Wrong + some.Near), share, 0.15);
+  EXPECT_GT(some.Wrong, 50);
+  // A region that is off by much more is told all the same.
+  const truth::RegionCheck far = CheckPlates(0.6, 1e-4, false, tolerance);
+  EXPECT_GT(far.Wrong, 10 * far.Bridged);
 }
 
 TEST(RegionTruth, HiddenRegionsAreTheOthers)
